@@ -3,6 +3,11 @@ include(GNUInstallDirs)
 find_package(Threads REQUIRED)
 find_package(PkgConfig)
 
+# System libraries are linked as flags (-lm), never by bare names: a name would mean a target of the
+# project that uses Relief, where it has one of that name.
+set(relief_dl_libs ${CMAKE_DL_LIBS})
+list(TRANSFORM relief_dl_libs PREPEND "-l")
+
 # A test of a sanitizer build is linked in a fifth of the time.
 if(RELIEF_SANITIZE)
   include(CheckLinkerFlag)

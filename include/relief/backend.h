@@ -101,11 +101,11 @@ typedef struct rlf_backend {
  * as the program. The table must stay valid; NULL = the plug-in cannot be used with this host. */
 typedef const rlf_backend *(*rlf_backend_entry_fn)(const rlf_backend_host *host);
 
-/* Value of a key, or NULL when it was not given. Compares whole names. Inline, since a plug-in
- * links nothing of Relief; the text lives as long as the address. */
+/* Value of a key, or NULL when it was not given; of NULL, too. Compares whole names. Inline, since
+ * a plug-in links nothing of Relief; the text lives as long as the address. */
 static inline const char *rlf_address_get(const rlf_address *address, const char *key)
 {
-    for (int32_t i = 0; i < address->key_count; i++) {
+    for (int32_t i = 0; address != NULL && key != NULL && i < address->key_count; i++) {
         const char *a = address->keys[i];
         const char *b = key;
         while (*a != '\0' && *a == *b) {

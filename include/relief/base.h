@@ -26,6 +26,13 @@ extern "C" {
 #define RLF_API
 #endif
 
+/* Marks what a program does when something is wrong: the way there is kept off the hot one. */
+#if defined(__GNUC__)
+#define RLF_COLD __attribute__((cold))
+#else
+#define RLF_COLD
+#endif
+
 #if defined(__GNUC__)
 #define RLF_PRINTF(format_index, first_index)                                                      \
     __attribute__((format(printf, format_index, first_index)))
@@ -85,14 +92,15 @@ RLF_API void rlf_set_log(rlf_log_fn fn, void *context);
 RLF_API void rlf_log(rlf_log_level level, const char *format, ...) RLF_PRINTF(2, 3);
 
 /* Called when RLF_ASSERT fails, on the thread that called. Return true to abort(), false to go on:
- * the call is then a safe no-op that returns RLF_ERROR_INVALID, NULL, false or 0, and the error
- * line names the condition. The default logs the place and aborts in builds without NDEBUG. */
+ * the call is then a safe no-op that returns RLF_ERROR_INVALID, NULL, false, 0 or a struct of zeros
+ * (a rotation is then none), and the error line names the condition. The default logs the place and
+ * aborts in builds without NDEBUG. */
 typedef bool (*rlf_assert_fn)(void *context, const char *condition, const char *file, int line);
 /* Replaces the handler; NULL brings back the default. */
 RLF_API void rlf_set_assert(rlf_assert_fn fn, void *context);
 
 /* Reports a failed assertion through the handler. Always returns false. Used by RLF_ASSERT. */
-RLF_API bool rlf_assert_failed(const char *condition, const char *file, int line);
+RLF_API RLF_COLD bool rlf_assert_failed(const char *condition, const char *file, int line);
 
 /* True when `condition` holds; otherwise reports it and is false, so that a function can write
  * `if (!RLF_ASSERT(world != NULL)) { return; }` and stay safe in release builds. */

@@ -23,7 +23,8 @@ typedef struct rlf_depth_noise {
  * nothing is divided by nothing. */
 static inline double rlf_depth_noise_sigma(const rlf_depth_noise *noise, double z)
 {
-    return rlf_max(noise->c0 + z * (noise->c1 + z * noise->c2), 0.0003);
+    return RLF_ASSERT(noise != NULL) ? rlf_max(noise->c0 + z * (noise->c1 + z * noise->c2), 0.0003)
+                                     : 0.0;
 }
 
 /* The cameras of a sensor, fixed for a source's life: stages size their planes by it once. */
@@ -84,7 +85,8 @@ typedef struct rlf_frame {
 
 /* RLF_OK, or RLF_ERROR_INVALID with a line that says what is wrong (`who` is put in front of it):
  * depth that is not one plane of rows as long as the rig says, units that are none (1 to 1000000),
- * colour of another size. rlf_source_next gives no frame that fails. Reads no pixel. */
+ * colour of another size, times beyond RLF_TIME_MAX_NS, a pose that is not finite. rlf_source_next
+ * gives no frame that fails. Reads no pixel. */
 RLF_API rlf_result rlf_frame_check(const rlf_rig *rig, const rlf_frame *frame, const char *who);
 
 #ifdef __cplusplus

@@ -44,24 +44,26 @@ typedef struct rlf_plane_f32 {
     ptrdiff_t stride;      /* bytes, not floats, from row to row, at least 4 * width */
 } rlf_plane_f32;
 
-/* First byte of row y, 0 <= y < height; nothing is checked. Pixel x is at 4 x. The offset is worked
- * out in ptrdiff_t, since a picture of the largest size has 1 GiB. */
+/* First byte of row y, 0 <= y < height, which is not checked. Pixel x is at 4 x. The offset is
+ * worked out in ptrdiff_t, since a picture of the largest size has 1 GiB. */
 static inline uint8_t *rlf_rgba8_row(const rlf_image_rgba8 *image, int32_t y)
 {
-    return image->data + (ptrdiff_t)y * image->stride;
+    return RLF_ASSERT(image != NULL) ? image->data + (ptrdiff_t)y * image->stride : NULL;
 }
-/* First byte of row y, 0 <= y < height; nothing is checked. Pixel x is at x. */
+/* First byte of row y, 0 <= y < height, which is not checked. Pixel x is at x. */
 static inline uint8_t *rlf_u8_row(const rlf_plane_u8 *plane, int32_t y)
 {
-    return plane->data + (ptrdiff_t)y * plane->stride;
+    return RLF_ASSERT(plane != NULL) ? plane->data + (ptrdiff_t)y * plane->stride : NULL;
 }
-/* First float of row y, 0 <= y < height; nothing is checked. Pixel x is at x, in floats.
+/* First float of row y, 0 <= y < height, which is not checked. Pixel x is at x, in floats.
  *
  * A view does not say whether its rows may be written: what is const in a frame or a surface
  * stays so for readers of its rows. */
 static inline float *rlf_f32_row(const rlf_plane_f32 *plane, int32_t y)
 {
-    return (float *)(void *)((char *)plane->data + (ptrdiff_t)y * plane->stride);
+    return RLF_ASSERT(plane != NULL)
+               ? (float *)(void *)((char *)plane->data + (ptrdiff_t)y * plane->stride)
+               : NULL;
 }
 
 #ifdef __cplusplus

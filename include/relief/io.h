@@ -41,7 +41,7 @@ typedef struct rlf_source_kind {
 
 /* Copies into `out` the word of `list`, words with blanks between, that takes the fewest edits
  * (Levenshtein 1966) to make of `word`: what a message asks "did you mean" of. False, and `out` as
- * it was, when none is within a third of its letters. Thread-safety: safe. */
+ * it was, when none is within a third of its letters; list NULL = no words. Thread-safety: safe. */
 RLF_API bool rlf_word_nearest(const char *list, const char *word, char *out, size_t size);
 
 /* Kinds of source that this build knows: built-in ones, those of plug-ins, then those that it was
@@ -121,7 +121,8 @@ RLF_API rlf_result rlf_recording_add(rlf_recording *recording, const rlf_frame *
 RLF_API rlf_result rlf_recording_add_bodies(rlf_recording *recording, int64_t time_ns,
                                             const rlf_snapshot *snapshot);
 RLF_API rlf_recording_status rlf_recording_get_status(const rlf_recording *recording);
-/* Finishes the file; the pointer is nulled even when it fails. `out` may be NULL. */
+/* Finishes the file; the pointer is nulled even when it fails. NULL and a NULL recording are
+ * allowed, and `out` may be NULL. */
 RLF_API rlf_result rlf_recording_close(rlf_recording **recording, rlf_recording_status *out);
 
 /* ---- scenes
@@ -220,7 +221,8 @@ typedef struct rlf_csv_log rlf_csv_log;
 /* Makes frames.csv, bodies.csv and contacts.csv in a folder (made if missing). */
 RLF_API rlf_result rlf_csv_log_open(const char *folder, rlf_csv_log **out);
 RLF_API rlf_result rlf_csv_log_write(rlf_csv_log *log, const rlf_pipeline_output *output);
-/* Flushes and closes; reports a disk that filled. The pointer is nulled even when it fails. */
+/* Flushes and closes; reports a disk that filled. The pointer is nulled even when it fails. NULL is
+ * allowed. */
 RLF_API rlf_result rlf_csv_log_close(rlf_csv_log **log);
 
 /* Makes a folder and its parents. RLF_OK when it is there already. */

@@ -171,7 +171,7 @@ typedef struct rlf_map_mesh {
  * out: a frame from near by adds 16, one from far or aslant down to 1. Free with
  * rlf_map_mesh_destroy. Thread-safety: as a const map. */
 RLF_API rlf_result rlf_map_mesh_create(const rlf_map *map, int32_t min_weight, rlf_map_mesh *out);
-/* Frees the arrays and zeroes the struct. A zeroed one is allowed. */
+/* Frees the arrays and zeroes the struct. NULL and a zeroed one are allowed. */
 RLF_API void rlf_map_mesh_destroy(rlf_map_mesh *mesh);
 
 /* ---- files ----------------------------------------------------------------------------------- */

@@ -16,8 +16,9 @@
  * -ffp-contract=off and without -ffast-math. Sums go from left to right. Beyond + - * / and sqrt,
  * which IEEE 754 rounds correctly, all functions are Relief's own, since C libraries differ.
  *
- * Nothing is checked: NaN comes out where NaN goes in. What comes from a user or a file is looked
- * at where it enters (rlf_is_finite, rlf_vec3_is_finite).
+ * Numbers are not checked: NaN comes out where NaN goes in. What comes from a user or a file is
+ * looked at where it enters (rlf_is_finite, rlf_vec3_is_finite). A pointer that is NULL breaks the
+ * contract (RLF_ASSERT) and gives zeros, or no rotation.
  *
  * Small functions are inline, for they are called per pixel; the larger ones are in src/math.
  * SPDX-License-Identifier: MIT */
@@ -150,7 +151,7 @@ static inline rlf_vec3 rlf_perpendicular(rlf_vec3 n)
 
 /* ---- mat3: rows, m[row][column] ----------------------------------------------------------------
  *
- * Passed by pointer, for 72 bytes are much to copy; a NULL pointer is not looked for. */
+ * Passed by pointer, for 72 bytes are much to copy. */
 
 /* Nine numbers: a rotation, an inertia tensor or a covariance. m[1][2] is the second row's third.
  * Vectors are columns and stand to its right. */
@@ -169,6 +170,9 @@ static inline rlf_mat3 rlf_mat3_diagonal(double x, double y, double z)
  * rotation: the turned vector. */
 static inline rlf_vec3 rlf_mat3_mul_vec(const rlf_mat3 *a, rlf_vec3 v)
 {
+    if (!RLF_ASSERT(a != NULL)) {
+        return rlf_vec3_make(0, 0, 0);
+    }
     return rlf_vec3_make(a->m[0][0] * v.x + a->m[0][1] * v.y + a->m[0][2] * v.z,
                          a->m[1][0] * v.x + a->m[1][1] * v.y + a->m[1][2] * v.z,
                          a->m[2][0] * v.x + a->m[2][1] * v.y + a->m[2][2] * v.z);
@@ -265,18 +269,27 @@ static inline rlf_pose rlf_pose_identity(void)
  * rlf_rotate with T->q. */
 static inline rlf_vec3 rlf_transform(const rlf_pose *T, rlf_vec3 v)
 {
+    if (!RLF_ASSERT(T != NULL)) {
+        return rlf_vec3_make(0, 0, 0);
+    }
     return rlf_add(rlf_rotate(T->q, v), T->p);
 }
 /* Maps a point of a back into b: the inverse of rlf_transform, without making the inverse pose. */
 static inline rlf_vec3 rlf_transform_inverse(const rlf_pose *T, rlf_vec3 v)
 {
+    if (!RLF_ASSERT(T != NULL)) {
+        return rlf_vec3_make(0, 0, 0);
+    }
     return rlf_rotate(rlf_quat_conjugate(T->q), rlf_sub(v, T->p));
 }
 /* T_a_c = T_a_b T_b_c: the inner letters must be the same and cancel. The quaternion is not
  * normalised again; see rlf_quat_mul. */
 static inline rlf_pose rlf_pose_mul(const rlf_pose *T_a_b, const rlf_pose *T_b_c)
 {
-    rlf_pose r;
+    rlf_pose r = rlf_pose_identity();
+    if (!RLF_ASSERT(T_a_b != NULL && T_b_c != NULL)) {
+        return r;
+    }
     r.p = rlf_transform(T_a_b, T_b_c->p);
     r.q = rlf_quat_mul(T_a_b->q, T_b_c->q);
     return r;
@@ -284,7 +297,10 @@ static inline rlf_pose rlf_pose_mul(const rlf_pose *T_a_b, const rlf_pose *T_b_c
 /* T_b_a: where frame a is, seen from b. */
 static inline rlf_pose rlf_pose_invert(const rlf_pose *T_a_b)
 {
-    rlf_pose r;
+    rlf_pose r = rlf_pose_identity();
+    if (!RLF_ASSERT(T_a_b != NULL)) {
+        return r;
+    }
     r.q = rlf_quat_conjugate(T_a_b->q);
     r.p = rlf_neg(rlf_rotate(r.q, T_a_b->p));
     return r;
@@ -326,12 +342,17 @@ static inline rlf_aabb rlf_aabb_empty(void)
 /* Grows the box just so that it holds p, which must be finite: a NaN would stay in the box. */
 static inline void rlf_aabb_extend(rlf_aabb *box, rlf_vec3 p)
 {
-    box->min = rlf_vec3_min(box->min, p);
-    box->max = rlf_vec3_max(box->max, p);
+    if (RLF_ASSERT(box != NULL)) {
+        box->min = rlf_vec3_min(box->min, p);
+        box->max = rlf_vec3_max(box->max, p);
+    }
 }
 /* Squared distance from p to the box, m^2; 0 inside. Squared, for comparing needs no root. */
 static inline double rlf_aabb_distance2(const rlf_aabb *box, rlf_vec3 p)
 {
+    if (!RLF_ASSERT(box != NULL)) {
+        return 0.0;
+    }
     rlf_vec3 near = rlf_vec3_max(box->min, rlf_vec3_min(p, box->max));
     rlf_vec3 d = rlf_sub(p, near);
     return rlf_dot(d, d);

@@ -125,12 +125,18 @@ typedef struct rlf_surface {
 /* Point of the front sheet at pixel index i; (0,0,0) where missing. */
 static inline rlf_vec3 rlf_surface_point(const rlf_surface *s, int32_t i)
 {
+    if (!RLF_ASSERT(s != NULL)) {
+        return rlf_vec3_make(0, 0, 0);
+    }
     double z = s->depth[i];
     return rlf_vec3_make(z * s->ray_x[i], z * s->ray_y[i], z);
 }
 /* Point of the background sheet at pixel index i; (0,0,0) where unknown. */
 static inline rlf_vec3 rlf_surface_background_point(const rlf_surface *s, int32_t i)
 {
+    if (!RLF_ASSERT(s != NULL)) {
+        return rlf_vec3_make(0, 0, 0);
+    }
     double z = s->background_depth[i];
     return rlf_vec3_make(z * s->ray_x[i], z * s->ray_y[i], z);
 }

@@ -124,8 +124,8 @@ RLF_API rlf_result rlf_synthetic_parse(const char *source, rlf_synthetic_def *de
 
 /* True surface point nearest along the true scene at this instant of a source made by
  * rlf_synthetic_create: signed distance from p (camera frame, metres; negative inside a solid) and
- * the outward unit normal there. For checking collisions against truth.
- * RLF_ERROR_INVALID when the source is not a synthetic one. */
+ * the outward unit normal there. For checking collisions against truth. out_normal and out_label
+ * may be NULL. RLF_ERROR_INVALID when the source is not a synthetic one. */
 RLF_API rlf_result rlf_synthetic_distance(rlf_source *source, rlf_vec3 p, double *out_distance,
                                           rlf_vec3 *out_normal, int32_t *out_label);
 

@@ -93,7 +93,7 @@ RLF_API rlf_result rlf_tracker_align(rlf_tracker *tracker, const rlf_track_view 
                                      rlf_track_result *out);
 
 /* Takes a result as the camera's pose at time_ns: later guesses begin there. Keeps the view as a
- * keyframe when its pose is good and no keyframe looks alike. */
+ * keyframe when its pose is good and no keyframe looks alike; view NULL: keeps none. */
 RLF_API void rlf_tracker_accept(rlf_tracker *tracker, const rlf_track_view *view, int64_t time_ns,
                                 const rlf_track_result *result);
 

@@ -137,7 +137,8 @@ RLF_API rlf_result rlf_world_create(const rlf_world_def *def, rlf_world **out);
 RLF_API void rlf_world_destroy(rlf_world **world);
 
 /* Adds a body (between advances). RLF_ERROR_INVALID names the field: non-finite numbers, mass <= 0,
- * a size <= 0 or > 100 m, restitution outside 0..1. RLF_ERROR_CAPACITY when the world is full. */
+ * a size <= 0 or > 100 m, restitution outside 0..1. RLF_ERROR_CAPACITY when the world is full.
+ * out_id may be NULL. */
 RLF_API rlf_result rlf_world_add_body(rlf_world *world, const rlf_body_def *def,
                                       rlf_body_id *out_id);
 /* Removes a body; a stale or null id does nothing. */

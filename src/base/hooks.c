@@ -77,7 +77,7 @@ void rlf_set_log(rlf_log_fn fn, void *context)
 
 void rlf_log(rlf_log_level level, const char *format, ...)
 {
-    if (log_fn == NULL) {
+    if (!RLF_ASSERT(format != NULL) || log_fn == NULL) {
         return;
     }
     char line[1024];

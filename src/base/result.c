@@ -29,6 +29,9 @@ const char *rlf_result_name(rlf_result result)
 
 rlf_result rlf_fail(rlf_result result, const char *format, ...)
 {
+    if (!RLF_ASSERT(format != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
     /* Formatted into a copy first: an argument may be the old error line. */
     char text[ERROR_TEXT_SIZE];
     va_list arguments;

@@ -75,8 +75,8 @@ rlf_result rlf_camera_check(const rlf_camera *camera, const char *who)
     }
     if ((int)camera->distortion_model < 0 ||
         camera->distortion_model > RLF_DISTORTION_RATIONAL_POLYNOMIAL) {
-        return rlf_fail(RLF_ERROR_INVALID, "%s: unknown distortion model %d", who,
-                        (int)camera->distortion_model);
+        return rlf_fail(RLF_ERROR_INVALID, "%s: distortion_model is %d; use 0 to %d", who,
+                        (int)camera->distortion_model, RLF_DISTORTION_RATIONAL_POLYNOMIAL);
     }
     return RLF_OK;
 }

@@ -2,6 +2,9 @@
 #include "relief/frame.h"
 
 #include "base/time_range.h"
+#include "camera/checks.h"
+
+#include <stdio.h>
 
 #define UNITS_MAX 1e6 /* counts a metre: a micrometre each */
 
@@ -96,6 +99,11 @@ rlf_result rlf_frame_check(const rlf_rig *rig, const rlf_frame *frame, const cha
     }
     if (result == RLF_OK) {
         result = check_color(rig, frame, who);
+    }
+    if (result == RLF_OK && frame->has_pose) {
+        char field[64];
+        (void)snprintf(field, sizeof(field), "frame %llu: T_world_camera", number_of(frame));
+        result = pose_check(&frame->T_world_camera, who, field);
     }
     return result;
 }

@@ -1,6 +1,7 @@
 /* The source object: caller's methods plus what is constant about them. */
 #include "capture/source_object.h"
 
+#include "camera/checks.h"
 #include "capture/depth_offset.h"
 #include "capture/range_watch.h"
 
@@ -17,11 +18,12 @@ struct rlf_source {
 
 static rlf_result check_info(const rlf_source_info *info)
 {
-    rlf_result result = rlf_camera_check(&info->rig.depth, "source: depth camera");
-    if (result == RLF_OK && info->rig.has_color) {
-        result = rlf_camera_check(&info->rig.color, "source: color camera");
+    const double rate = info->frames_per_second;
+    if (!(rate >= 0.0) || !rlf_is_finite(rate)) {
+        return rlf_fail(RLF_ERROR_INVALID, "source: frames_per_second is %g; use 0 for unknown",
+                        rate);
     }
-    return result;
+    return rig_check(&info->rig, "source");
 }
 
 rlf_result rlf_source_create_custom(const rlf_source_methods *methods, const rlf_source_info *info,

@@ -167,6 +167,9 @@ rlf_result io_out_open_in_place(const char *path, int *out_descriptor)
 
 rlf_result rlf_file_write(const char *path, const void *data, size_t size)
 {
+    if (!RLF_ASSERT(path != NULL && (data != NULL || size == 0))) {
+        return RLF_ERROR_INVALID;
+    }
     io_out_file file;
     rlf_result result = io_out_open(&file, path);
     if (result != RLF_OK) {
@@ -177,6 +180,9 @@ rlf_result rlf_file_write(const char *path, const void *data, size_t size)
 
 rlf_result rlf_file_check(const char *path)
 {
+    if (!RLF_ASSERT(path != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
     io_out_file file;
     rlf_result result = prepare(&file, path);
     if (result != RLF_OK || file.is_direct) {

@@ -286,6 +286,38 @@ static rlf_result solve_points(const rlf_known_def *def, const rlf_known_view *v
     return check_fit(picks, def->point_count, &sight, fit);
 }
 
+/* What does not count for its kind of shape may be anything. */
+static bool is_shape_finite(const rlf_shape *shape)
+{
+    switch (shape->type) {
+    case RLF_SHAPE_BOX: return rlf_vec3_is_finite(shape->size);
+    case RLF_SHAPE_SPHERE: return rlf_is_finite(shape->radius);
+    case RLF_SHAPE_CAPSULE:
+    case RLF_SHAPE_CYLINDER: return rlf_is_finite(shape->radius) && rlf_is_finite(shape->height);
+    case RLF_SHAPE_HULL: return true;
+    }
+    return false;
+}
+
+static rlf_result check_numbers(const rlf_known_def *def)
+{
+    const rlf_quat q = def->T_world_model.q;
+    const char *field = NULL;
+    if (!rlf_vec3_is_finite(def->T_world_model.p) || !rlf_is_finite(q.x + q.y + q.z + q.w)) {
+        field = "T_world_model";
+    } else if (!is_shape_finite(&def->shape)) {
+        field = "shape (its type, size, radius or height)";
+    } else if (!rlf_vec3_is_finite(def->look.offset) || !rlf_is_finite(def->look.scale)) {
+        field = "look (its offset or scale)";
+    } else if (!(def->restitution >= 0.0 && def->restitution <= 1.0)) {
+        field = "restitution";
+    } else if (!(def->friction >= 0.0 && def->friction <= 1000.0)) {
+        field = "friction";
+    }
+    return field == NULL ? RLF_OK
+                         : rlf_fail(RLF_ERROR_INVALID, "%s is not a value that can be used", field);
+}
+
 static rlf_result check(const rlf_known_def *def, const rlf_known_view *view)
 {
     bool is_pixel = false;
@@ -294,17 +326,13 @@ static rlf_result check(const rlf_known_def *def, const rlf_known_view *view)
     }
     if (def->point_count != 0 &&
         (def->point_count < RLF_KNOWN_POINTS_MIN || def->point_count > RLF_KNOWN_POINTS_MAX)) {
-        return rlf_fail(RLF_ERROR_INVALID, "%d points: give %d to %d", (int)def->point_count,
-                        RLF_KNOWN_POINTS_MIN, RLF_KNOWN_POINTS_MAX);
+        return rlf_fail(RLF_ERROR_INVALID, "point_count is %d: give %d to %d",
+                        (int)def->point_count, RLF_KNOWN_POINTS_MIN, RLF_KNOWN_POINTS_MAX);
     }
     if (is_pixel && view == NULL) {
         return rlf_fail(RLF_ERROR_INVALID, "picked pixels need a frame of the camera");
     }
-    const rlf_pose *T = &def->T_world_model;
-    if (!rlf_vec3_is_finite(T->p) || !rlf_is_finite(T->q.x + T->q.y + T->q.z + T->q.w)) {
-        return rlf_fail(RLF_ERROR_INVALID, "its pose is not finite");
-    }
-    return RLF_OK;
+    return check_numbers(def);
 }
 
 rlf_result rlf_known_solve(const rlf_known_def *def, const rlf_known_view *view, rlf_known_fit *out)

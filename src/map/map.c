@@ -2,6 +2,7 @@
 #include "map/volume.h"
 
 #include "base/cookie.h"
+#include "camera/checks.h"
 
 #include <string.h>
 
@@ -29,7 +30,7 @@ static rlf_result out_of_range(const char *field, const char *range)
 
 static rlf_result check(const rlf_map_def *def)
 {
-    rlf_result result = rlf_camera_check(&def->rig.depth, "rlf_map_def.rig.depth");
+    rlf_result result = rig_check(&def->rig, "rlf_map_def");
     if (result != RLF_OK) {
         return result;
     }
@@ -47,10 +48,6 @@ static rlf_result check(const rlf_map_def *def)
     }
     if (def->carve_after < 1 || def->carve_after > 16) {
         return out_of_range("carve_after", "1..16");
-    }
-    const rlf_depth_noise *n = &def->rig.noise;
-    if (!rlf_is_finite(n->c0) || !rlf_is_finite(n->c1) || !rlf_is_finite(n->c2)) {
-        return out_of_range("rig.noise", "finite");
     }
     return RLF_OK;
 }

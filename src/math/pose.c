@@ -3,7 +3,10 @@
 
 rlf_mat3 rlf_mat3_mul(const rlf_mat3 *a, const rlf_mat3 *b)
 {
-    rlf_mat3 r;
+    rlf_mat3 r = {{{0}}};
+    if (!RLF_ASSERT(a != NULL && b != NULL)) {
+        return r;
+    }
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
             r.m[i][j] = a->m[i][0] * b->m[0][j] + a->m[i][1] * b->m[1][j] + a->m[i][2] * b->m[2][j];
@@ -14,7 +17,10 @@ rlf_mat3 rlf_mat3_mul(const rlf_mat3 *a, const rlf_mat3 *b)
 
 rlf_mat3 rlf_mat3_transpose(const rlf_mat3 *a)
 {
-    rlf_mat3 r;
+    rlf_mat3 r = {{{0}}};
+    if (!RLF_ASSERT(a != NULL)) {
+        return r;
+    }
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
             r.m[i][j] = a->m[j][i];
@@ -25,6 +31,9 @@ rlf_mat3 rlf_mat3_transpose(const rlf_mat3 *a)
 
 bool rlf_mat3_invert(const rlf_mat3 *a, rlf_mat3 *out)
 {
+    if (!RLF_ASSERT(a != NULL && out != NULL)) {
+        return false;
+    }
     const double(*m)[3] = a->m;
     double c00 = m[1][1] * m[2][2] - m[1][2] * m[2][1];
     double c01 = m[1][2] * m[2][0] - m[1][0] * m[2][2];
@@ -75,6 +84,9 @@ rlf_mat3 rlf_quat_to_mat3(rlf_quat q)
 
 rlf_quat rlf_quat_from_mat3(const rlf_mat3 *matrix)
 {
+    if (!RLF_ASSERT(matrix != NULL)) {
+        return rlf_quat_identity();
+    }
     const double(*m)[3] = matrix->m;
     double trace = m[0][0] + m[1][1] + m[2][2];
     rlf_quat q;
@@ -100,7 +112,10 @@ rlf_quat rlf_quat_from_mat3(const rlf_mat3 *matrix)
 
 rlf_mat4 rlf_mat4_mul(const rlf_mat4 *a, const rlf_mat4 *b)
 {
-    rlf_mat4 r;
+    rlf_mat4 r = {{{0}}};
+    if (!RLF_ASSERT(a != NULL && b != NULL)) {
+        return r;
+    }
     for (int i = 0; i < 4; i++) {
         for (int j = 0; j < 4; j++) {
             double sum = 0.0;
@@ -120,10 +135,13 @@ rlf_mat4 rlf_mat4_from_pose(const rlf_pose *T)
 
 rlf_mat4 rlf_mat4_model(const rlf_pose *T, rlf_vec3 scale)
 {
+    rlf_mat4 r = {{{0}}};
+    if (!RLF_ASSERT(T != NULL)) {
+        return r;
+    }
     rlf_mat3 R = rlf_quat_to_mat3(T->q);
     const double s[3] = {scale.x, scale.y, scale.z};
     const double t[3] = {T->p.x, T->p.y, T->p.z};
-    rlf_mat4 r = {{{0}}};
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
             r.m[i][j] = R.m[i][j] * s[j];

@@ -37,9 +37,10 @@ static rlf_result check_vectors(const rlf_body_def *def)
         field = "velocity";
     } else if (!rlf_vec3_is_finite(def->angular_velocity)) {
         field = "angular_velocity";
-    } else if (!rlf_vec3_is_finite(def->look.offset) || !rlf_is_finite(def->look.scale) ||
-               !(def->look.scale > 0)) {
-        field = "look";
+    } else if (!rlf_vec3_is_finite(def->look.offset)) {
+        field = "look.offset";
+    } else if (!rlf_is_finite(def->look.scale) || !(def->look.scale > 0)) {
+        field = "look.scale";
     } else if (!rlf_is_finite(def->color[0] + def->color[1] + def->color[2])) {
         field = "color";
     }
@@ -219,5 +220,5 @@ int32_t phys_find_body(const rlf_world *world, rlf_body_id id)
 
 bool rlf_world_has_body(const rlf_world *world, rlf_body_id id)
 {
-    return phys_find_body(world, id) >= 0;
+    return RLF_ASSERT(world != NULL) && phys_find_body(world, id) >= 0;
 }

@@ -117,10 +117,10 @@ static uint64_t hash_double(uint64_t hash, double value)
 
 uint64_t rlf_world_hash(const rlf_world *world)
 {
-    uint64_t hash = 0xcbf29ce484222325u;
     if (!RLF_ASSERT(world != NULL)) {
-        return hash;
+        return 0;
     }
+    uint64_t hash = 0xcbf29ce484222325u;
     for (int32_t i = 0; i < world->body_top; i++) {
         const phys_body *b = &world->bodies[i];
         if (!b->is_alive) {

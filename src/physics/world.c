@@ -128,7 +128,7 @@ static void remove_body(rlf_world *world, int32_t index)
 
 void rlf_world_remove_body(rlf_world *world, rlf_body_id id)
 {
-    int32_t index = phys_find_body(world, id);
+    int32_t index = RLF_ASSERT(world != NULL) ? phys_find_body(world, id) : -1;
     if (index >= 0) {
         remove_body(world, index);
         phys_world_publish(world);
@@ -148,8 +148,11 @@ void phys_world_remove_strays(rlf_world *world)
 bool rlf_world_set_body(rlf_world *world, rlf_body_id id, const rlf_pose *T_world_body,
                         rlf_vec3 velocity, rlf_vec3 angular_velocity)
 {
+    if (!RLF_ASSERT(world != NULL && T_world_body != NULL)) {
+        return false;
+    }
     int32_t index = phys_find_body(world, id);
-    if (index < 0 || !RLF_ASSERT(T_world_body != NULL)) {
+    if (index < 0) {
         return false;
     }
     rlf_quat q = T_world_body->q;
@@ -179,7 +182,7 @@ bool rlf_world_set_body(rlf_world *world, rlf_body_id id, const rlf_pose *T_worl
 
 bool rlf_world_apply_impulse(rlf_world *world, rlf_body_id id, rlf_vec3 impulse, rlf_vec3 point)
 {
-    int32_t index = phys_find_body(world, id);
+    int32_t index = RLF_ASSERT(world != NULL) ? phys_find_body(world, id) : -1;
     if (index < 0 || !rlf_vec3_is_finite(impulse) || !rlf_vec3_is_finite(point)) {
         return false;
     }
@@ -192,7 +195,7 @@ bool rlf_world_apply_impulse(rlf_world *world, rlf_body_id id, rlf_vec3 impulse,
 
 bool rlf_world_apply_force(rlf_world *world, rlf_body_id id, rlf_vec3 force, rlf_vec3 point)
 {
-    int32_t index = phys_find_body(world, id);
+    int32_t index = RLF_ASSERT(world != NULL) ? phys_find_body(world, id) : -1;
     if (index < 0 || !rlf_vec3_is_finite(force) || !rlf_vec3_is_finite(point)) {
         return false;
     }

@@ -1,5 +1,6 @@
 /* A pipeline is made, with all of its stages and the scene, and goes. */
 #include "base/cookie.h"
+#include "camera/checks.h"
 #include "pipeline/state.h"
 
 #include <string.h>
@@ -139,6 +140,23 @@ static rlf_result create_stages(rlf_pipeline *p)
     return rlf_compositor_create_soft(&p->compositor_def, &p->compositor);
 }
 
+static rlf_result check_def(const rlf_pipeline_def *def)
+{
+    const struct {
+        const char *name;
+        int value, count;
+    } choices[] = {{"profile", (int)def->profile, RLF_PROFILE_THESIS + 1},
+                   {"camera", (int)def->camera, RLF_CAMERA_AUTO + 1},
+                   {"poses", (int)def->poses, RLF_POSES_SOURCE + 1}};
+    for (int i = 0; i < 3; i++) {
+        if (choices[i].value < 0 || choices[i].value >= choices[i].count) {
+            return rlf_fail(RLF_ERROR_INVALID, "pipeline def: %s is %d; use 0 to %d",
+                            choices[i].name, choices[i].value, choices[i].count - 1);
+        }
+    }
+    return pose_check(&def->T_world_camera, "pipeline def", "T_world_camera");
+}
+
 rlf_result rlf_pipeline_create(const rlf_pipeline_def *def, rlf_pipeline **out)
 {
     if (!RLF_ASSERT(out != NULL)) {
@@ -148,12 +166,16 @@ rlf_result rlf_pipeline_create(const rlf_pipeline_def *def, rlf_pipeline **out)
     if (!RLF_ASSERT(def != NULL && def->cookie == RLF_DEF_COOKIE && def->source != NULL)) {
         return rlf_fail(RLF_ERROR_INVALID, "pipeline def: start from rlf_pipeline_def_default");
     }
+    rlf_result result = check_def(def);
+    if (result != RLF_OK) {
+        return result;
+    }
     rlf_pipeline *p = rlf_alloc(sizeof(*p));
     if (p == NULL) {
         return RLF_ERROR_MEMORY;
     }
     p->def = *def;
-    rlf_result result = copy_scene(p, def->scene);
+    result = copy_scene(p, def->scene);
     if (result == RLF_OK) {
         result = known_models_create(def->scene, &p->known);
     }

@@ -2,6 +2,7 @@
 #include "relief/compositor.h"
 
 #include "base/cookie.h"
+#include "camera/checks.h"
 
 #include <string.h>
 
@@ -77,7 +78,7 @@ void rlf_compositor_destroy(rlf_compositor **compositor)
 const char *rlf_compositor_name(const rlf_compositor *compositor)
 {
     if (!RLF_ASSERT(compositor != NULL)) {
-        return "";
+        return NULL;
     }
     return compositor->methods.name != NULL ? compositor->methods.name : "custom";
 }
@@ -94,9 +95,10 @@ rlf_result rlf_compositor_render(rlf_compositor *compositor, const rlf_render_in
     if (color->data != NULL &&
         (color->width < 1 || color->height < 1 || color->stride < 4 * (ptrdiff_t)color->width)) {
         return rlf_fail(RLF_ERROR_INVALID,
-                        "render: a colour picture of %d x %d pixels has rows of %lld bytes: use 4 "
+                        "compositor: a colour picture of %d x %d pixels has rows of %lld bytes: use 4 "
                         "bytes a pixel or more",
                         (int)color->width, (int)color->height, (long long)color->stride);
     }
-    return compositor->methods.render(compositor->self, input, out);
+    const rlf_result result = pose_check(&input->T_world_camera, "compositor", "T_world_camera");
+    return result == RLF_OK ? compositor->methods.render(compositor->self, input, out) : result;
 }

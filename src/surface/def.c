@@ -2,6 +2,7 @@
 #include "surface/stage.h"
 
 #include "base/cookie.h"
+#include "camera/checks.h"
 
 #define LENGTH_MAX 1000.0 /* metres, of any setting */
 
@@ -107,7 +108,7 @@ static rlf_result check_limits(const limit *limits, int32_t count)
 
 rlf_result rlf_reconstruct_def_check(const rlf_reconstruct_def *def)
 {
-    rlf_result result = rlf_camera_check(&def->rig.depth, "reconstruct: rig.depth");
+    rlf_result result = rig_check(&def->rig, "reconstruct");
     if (def->background_method == RLF_BACKGROUND_GIVEN && def->give_background == NULL) {
         result = rlf_fail(RLF_ERROR_INVALID, "reconstruct: a given background needs "
                                              "give_background");

@@ -5,6 +5,7 @@
 #include "surface/thickness/static.h"
 
 #include "base/cookie.h"
+#include "camera/checks.h"
 
 #include <string.h>
 

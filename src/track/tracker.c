@@ -3,6 +3,7 @@
 
 #include "base/cookie.h"
 #include "base/time_range.h"
+#include "camera/checks.h"
 
 #define GUESS_GAP_NS 200000000 /* after a longer gap nobody knows how the camera goes on */
 
@@ -25,7 +26,7 @@ rlf_tracker_def rlf_tracker_def_default(void)
 
 static rlf_result check(const rlf_tracker_def *def)
 {
-    rlf_result result = rlf_camera_check(&def->rig.depth, "rlf_tracker_create: rig.depth");
+    rlf_result result = rig_check(&def->rig, "rlf_tracker_create");
     if (result != RLF_OK) {
         return result;
     }

@@ -52,19 +52,18 @@ if(TARGET relief_app AND RELIEF_WITH_VIEWER)
 endif()
 
 # Figures within their bounds, of one seed; `relief eval` takes the mean of three, and has the other
-# scenes. Single seeds of the picture spread by more than they are above its bound, so that one takes
+# scenes; test_eval_sections has those without a camera. Single seeds of the picture spread by more than they are above its bound, so that one takes
 # two. A random room has no bounds and need only come to its end. Minutes with sanitizers, so only
 # as released.
 if(TARGET relief_app AND CMAKE_BUILD_TYPE STREQUAL Release)
-  foreach(scene room chair book simulator planes plate physics known)
+  foreach(scene room chair book simulator known)
     add_test(NAME app.bounds_${scene}
              COMMAND relief_app eval --scene ${scene} --profile live --seeds 1 --threads 1)
   endforeach()
   add_test(NAME app.bounds_picture COMMAND relief_app eval --scene picture --profile live --seeds 2)
   add_test(NAME app.eval_random COMMAND relief_app eval --random --rooms 1 --frames 20 --threads 1 --profile live)
   set_tests_properties(app.bounds_room app.bounds_chair app.bounds_book app.bounds_simulator
-                       app.bounds_planes app.bounds_plate app.bounds_physics app.bounds_known
-                       app.bounds_picture app.eval_random PROPERTIES LABELS app TIMEOUT 3600)
+                       app.bounds_known app.bounds_picture app.eval_random PROPERTIES LABELS app TIMEOUT 3600)
 endif()
 
 # The report page; measures a little itself, so only as released.

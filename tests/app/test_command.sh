@@ -127,8 +127,8 @@ expect_done run "$small" --headless --frames 1 --light 0,1,0 --hash
 grep -q "^light: .* given$" stdout.txt || fail "a light was given: $(cat stdout.txt)"
 
 # A legend is in the picture that asked for one, and in no other.
-expect_done run synthetic:empty --headless --frames 1 --quiet --view depth --pictures plain
-expect_done run synthetic:empty --headless --frames 1 --quiet --view depth --pictures legend --legend
+expect_done run "synthetic:empty?color=480x270" --headless --frames 1 --quiet --view depth --pictures plain
+expect_done run "synthetic:empty?color=480x270" --headless --frames 1 --quiet --view depth --pictures legend --legend
 cmp -s plain/000000.png legend/000000.png && fail "--legend draws nothing"
 expect_error 2 "needs a SOURCE" run --headless
 expect_error 2 "live or thesis" run synthetic:room --profile both
@@ -173,13 +173,13 @@ expect_error 2 "off or average or adaptive" measure synthetic:room --set backgro
 expect_error 2 "a count" export synthetic:room --set min_region_points=1.5
 expect_error 2 "a number" eval --set depth_max_m=far
 expect_error 1 "depth_min_m is nan" run "synthetic:room?color=96x54" --headless --frames 1 --set depth_min_m=nan
-expect_done settings synthetic:thesis
+expect_done settings "synthetic:thesis?color=96x54"
 grep -q "^steadying  *on  *off" stdout.txt || fail "settings: not listed"
 expect_error 2 "needs one SOURCE" info
 expect_error 2 "takes no SOURCE" sources synthetic:room
 expect_error 2 "from 1 to 3600" info synthetic:room --seconds 0
 expect_error 1 "no/such/folder" info synthetic:room --json no/such/folder/info.json
-expect_done info synthetic:room --frames 3 --json info.json
+expect_done info "synthetic:room?color=96x54" --frames 3 --json info.json
 grep -q '"interval_s": 0.0333' info.json || fail "info --json: $(cat info.json)"
 grep -q "^missing  *[0-9.]* % of the pixels" stdout.txt || fail "info: $(cat stdout.txt)"
 # What OpenNI2's drivers leave behind when they are asked for devices is not Relief's to free.
@@ -209,25 +209,25 @@ printf '{"spawn": [{"body": {}, "pattern": "heap", "count": 3}]}' >heap.json
 expect_error 1 "heap.json: spawn\[0\].pattern is \"heap\"" run "synthetic:room?color=96x54" --headless --scene heap.json
 : >file
 echo '{"known_objects":[{"name":"crate","shape":"box","size":[0.34,0.22,0.26]}]}' >known.json
-room=synthetic:empty
-expect_error 1 "crte" place $room --scene known.json --object crte
-expect_error 1 "no points" place $room --scene known.json --object crate
-expect_error 1 "do not fit" place $room --scene known.json --object crate \
-    --pick ltn@730,349 --pick rtn@821,354 --pick lbn@821,407
-expect_error 1 "on a line" place $room --scene known.json --object crate \
-    --pick ltn@730,349 --pick ctn@776,351 --pick rtn@821,354
-expect_error 1 "outside the picture" place $room --scene known.json --object crate \
-    --pick ltn@7300,349 --pick rtn@821,354 --pick lbn@730,400
-expect_error 1 "a point that" place $room --scene known.json --object crate \
-    --pick top@730,349 --pick rtn@821,354 --pick lbn@730,400
-expect_done place $room --scene known.json --object crate --out placed.json --picture placed.png \
-    --pick ltn@730,349 --pick rtn@821,354 --pick lbn@730,400 --pick rbn@821,407
+room='synthetic:empty?color=480x270'
+expect_error 1 "crte" place "$room" --scene known.json --object crte
+expect_error 1 "no points" place "$room" --scene known.json --object crate
+expect_error 1 "do not fit" place "$room" --scene known.json --object crate \
+    --pick ltn@365,174 --pick rtn@410,177 --pick lbn@410,203
+expect_error 1 "on a line" place "$room" --scene known.json --object crate \
+    --pick ltn@365,174 --pick ctn@388,175.5 --pick rtn@410,177
+expect_error 1 "outside the picture" place "$room" --scene known.json --object crate \
+    --pick ltn@3650,174 --pick rtn@410,177 --pick lbn@365,200
+expect_error 1 "a point that" place "$room" --scene known.json --object crate \
+    --pick top@365,174 --pick rtn@410,177 --pick lbn@365,200
+expect_done place "$room" --scene known.json --object crate --out placed.json --picture placed.png \
+    --pick ltn@365,174 --pick rtn@410,177 --pick lbn@365,200 --pick rbn@410,203
 grep -q "position     1.3[34]" stdout.txt || fail "place: the crate is elsewhere"
-expect_done run $room --scene placed.json --headless --frames 3 --view known --quiet
-expect_error 1 "profile live" run $room --scene placed.json --headless --frames 3 --profile thesis
+expect_done run "$room" --scene placed.json --headless --frames 3 --view known --quiet
+expect_error 1 "profile live" run "$room" --scene placed.json --headless --frames 3 --profile thesis
 expect_error 1 "file" run "synthetic:room?color=96x54" --headless --frames 3 --log file/log
 expect_error 1 "file" run "synthetic:room?color=96x54" --headless --frames 3 --video file/video.y4m
-expect_error 1 "file" export synthetic:room --frames 0:2 --out file/out --what depth
+expect_error 1 "file" export "synthetic:room?color=96x54" --frames 0:2 --out file/out --what depth
 mkdir empty_folder
 expect_error 1 "camera.json" run empty_folder --headless
 expect_error 1 "frame 7" export "synthetic:room?color=96x54&frames=5" --frames 7:9 --out o --what depth
@@ -278,12 +278,12 @@ diff -r soft no_gl >stdout.txt || fail "no OpenGL: other pictures: $(cat stdout.
 
 # Table 5.1 of any source.
 expect_error 2 "--scale" measure synthetic:thesis --scale 8,zero
-expect_error 1 "has no end" measure "synthetic:thesis?frames=-1"
-expect_error 1 "too few frames" measure "synthetic:thesis?frames=4"
+expect_error 1 "has no end" measure "synthetic:thesis?color=96x54&frames=-1"
+expect_error 1 "too few frames" measure "synthetic:thesis?color=96x54&frames=4"
 expect_error 1 "no/table.json" measure synthetic:thesis --json no/table.json
 expect_error 1 "no/table.csv" measure synthetic:thesis --csv no/table.csv
 expect_error 1 "has no frames" measure "synthetic:room?color=96x54&frames=0" --noise
-expect_done measure "synthetic:thesis?frames=12" --csv table.csv --json table.json
+expect_done measure "synthetic:thesis?color=96x54&frames=12" --csv table.csv --json table.json
 [ "$(wc -l <table.csv)" -eq 9 ] || fail "measure: table.csv rows"
 grep -q '"cpu"' table.json || fail "measure: table.json names no machine"
 grep -q '"counted_bad_percent"' table.json || fail "measure: table.json"
@@ -363,9 +363,9 @@ expect_error 1 "no/room.map: cannot be created" run "$moving" --camera moving --
 # Ctrl-C ends a run with whole files.
 "$relief" run "synthetic:room?color=96x54&frames=-1" --headless --video long.y4m --log long_log --quiet &
 pid=$!
-for wait in 1 2 3 4 5 6 7 8 9 10; do # until it is at work
+for wait in $(seq 100); do # until it is at work
     ls long.y4m.*.part >/dev/null 2>&1 && break
-    sleep 1
+    sleep 0.1
 done
 kill -INT $pid
 wait $pid
@@ -380,7 +380,7 @@ for command in "eval --scene room" "bench --frames 100000" "measure synthetic:ro
     # shellcheck disable=SC2086 # words
     "$relief" $command --json kept.json >stdout.txt 2>stderr.txt &
     pid=$!
-    sleep 2
+    sleep 1
     kill -INT $pid
     wait $pid
     [ $? -eq 130 ] || fail "interrupted $command: status is not 130"
@@ -393,7 +393,7 @@ mkdir early && echo old >early/frames.csv
 "$relief" run "simulated:?of=synthetic:empty&stall=60@0" --headless --video early.y4m --log early --hash \
     >stdout.txt 2>stderr.txt &
 pid=$!
-sleep 2
+sleep 1
 kill -INT $pid
 wait $pid
 [ $? -eq 130 ] || fail "interrupted before the first frame: status is not 130"
@@ -404,9 +404,9 @@ tail -n 1 stderr.txt | grep -q "nothing was written" || fail "interrupted before
 # A terminal that is closed ends a run as Ctrl-C does; nohup keeps it from that.
 "$relief" run "synthetic:room?color=96x54&frames=-1" --headless --video hup.y4m --log hup_log --quiet &
 pid=$!
-for wait in 1 2 3 4 5 6 7 8 9 10; do
+for wait in $(seq 100); do
     ls hup.y4m.*.part >/dev/null 2>&1 && break
-    sleep 1
+    sleep 0.1
 done
 kill -HUP $pid
 wait $pid
@@ -448,7 +448,7 @@ done
 [ "$(ls shared | wc -l)" -eq 4 ] || fail "three runs into one folder: $(ls shared)"
 
 if [ -e /dev/full ]; then
-    for command in "run synthetic:empty?frames=1 --headless --quiet --hash" settings "info synthetic:empty --frames 1" --help "run --help"; do
+    for command in "run $small&frames=1 --headless --quiet --hash" settings "info $small --frames 1" --help "run --help"; do
         # shellcheck disable=SC2086 # words
         "$relief" $command >/dev/full 2>stderr.txt
         [ $? -eq 1 ] || fail "$command >/dev/full: status is not 1"

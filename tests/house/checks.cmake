@@ -45,11 +45,6 @@ if(NOT RELIEF_SANITIZE)
               ${CMAKE_CURRENT_BINARY_DIR}/circles ${CMAKE_C_COMPILER} ${CMAKE_NM})
 endif()
 
-if(NOT RELIEF_SANITIZE)
-  house_check(other_compiler ${house}/other_compiler.sh ${PROJECT_SOURCE_DIR}
-              ${CMAKE_CURRENT_BINARY_DIR}/other_compiler ${CMAKE_C_COMPILER} ${CMAKE_GENERATOR})
-endif()
-
 # A sanitized library would ask the stranger's program for the same sanitizers.
 if(NOT RELIEF_SANITIZE)
   house_check(install ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR} -DBUILD=${PROJECT_BINARY_DIR}

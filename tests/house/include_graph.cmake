@@ -11,7 +11,7 @@ cmake_minimum_required(VERSION 3.25)
 set(public_base base)
 set(public_math base math)
 set(public_image base image)
-set(public_camera base math image camera)
+set(public_camera base math image camera frame) # of the value: what is checked of it
 set(public_kernel base math image camera frame surface) # of the values: noise and reason codes
 set(public_capture base math image camera frame source synthetic synthetic_hands)
 set(public_surface base math image camera frame surface reconstruct)

@@ -2,7 +2,7 @@
 if(TARGET relief_app AND NOT RELIEF_SANITIZE)
   set(folder ${CMAKE_CURRENT_LIST_DIR})
   add_library(mock_v4l2 MODULE ${folder}/mock_v4l2.c)
-  target_link_libraries(mock_v4l2 PRIVATE ${CMAKE_DL_LIBS})
+  target_link_libraries(mock_v4l2 PRIVATE ${relief_dl_libs})
   add_test(NAME virtual_camera.v4l2
            COMMAND sh ${folder}/test_v4l2.sh $<TARGET_FILE:relief_app> $<TARGET_FILE:mock_v4l2>
                    ${CMAKE_CURRENT_BINARY_DIR}/virtual_camera_v4l2)

@@ -2,6 +2,7 @@
 #include "render/soft/soft.h"
 
 #include "base/cookie.h"
+#include "camera/checks.h"
 #include "render/render.h"
 #include "render/soft/background.h"
 #include "render/soft/bodies.h"
@@ -160,10 +161,7 @@ static rlf_result allocate(soft *s)
 
 static rlf_result check_def(const rlf_compositor_def *def)
 {
-    rlf_result result = rlf_camera_check(&def->rig.depth, "compositor: depth camera");
-    if (result == RLF_OK && def->rig.has_color) {
-        result = rlf_camera_check(&def->rig.color, "compositor: colour camera");
-    }
+    rlf_result result = rig_check(&def->rig, "compositor");
     if (result == RLF_OK) {
         result = rlf_camera_check(&def->grid, "compositor: grid");
     }
@@ -173,7 +171,8 @@ static rlf_result check_def(const rlf_compositor_def *def)
     if (def->width < 0 || def->width > RLF_IMAGE_SIZE_MAX || def->height < 0 ||
         def->height > RLF_IMAGE_SIZE_MAX) {
         return rlf_fail(RLF_ERROR_INVALID,
-                        "compositor: picture of %d x %d; use 1 to %d, or 0 for the camera's size",
+                        "compositor: width x height is %d x %d; use 1 to %d, or 0 for the camera's "
+                        "size",
                         (int)def->width, (int)def->height, RLF_IMAGE_SIZE_MAX);
     }
     double length = rlf_length(def->light_direction);
