@@ -61,10 +61,9 @@ rlf_result rlf_frame_check(const rlf_rig *rig, const rlf_frame *frame, const cha
     }
     if (result == RLF_OK && frame->confidence != NULL &&
         frame->confidence_stride < rig->depth.width) {
-        result = rlf_fail(RLF_ERROR_INVALID,
-                          "%s: frame %llu: confidence_stride is %lld; use at least %d bytes", who,
-                          number_of(frame), (long long)frame->confidence_stride,
-                          (int)rig->depth.width);
+        result = rlf_fail(
+            RLF_ERROR_INVALID, "%s: frame %llu: confidence_stride is %lld; use at least %d bytes",
+            who, number_of(frame), (long long)frame->confidence_stride, (int)rig->depth.width);
     }
     return result;
 }

@@ -16,8 +16,8 @@
 
 typedef struct entry {
     io_reading id;
-    int32_t count;        /* of those that read it; 0 = the place is free */
-    char path[PATH_MAX];  /* of a folder, without links; "" = a file */
+    int32_t count;       /* of those that read it; 0 = the place is free */
+    char path[PATH_MAX]; /* of a folder, without links; "" = a file */
 } entry;
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
@@ -117,8 +117,8 @@ void io_reading_end_folder(io_reading *folder)
 /* Of the kinds that a clip consists of; others may lie beside it. */
 static bool is_of_clip(const char *path)
 {
-    static const char *const endings[] = {".png", ".jpg", ".jpeg", ".txt", ".json", ".log",
-                                          ".pcd", ".yml", ".yaml", ".freiburg"};
+    static const char *const endings[] = {".png", ".jpg", ".jpeg", ".txt",  ".json",
+                                          ".log", ".pcd", ".yml",  ".yaml", ".freiburg"};
     const char *dot = strrchr(path, '.');
     for (size_t i = 0; dot != NULL && i < sizeof(endings) / sizeof(endings[0]); i++) {
         if (strcasecmp(dot, endings[i]) == 0) {
@@ -165,8 +165,8 @@ static bool is_in_clip(const struct stat *status, const char *path)
     for (int i = 0; i < READINGS_MAX && !is_found; i++) {
         const entry *e = &entries[i];
         if (e->count > 0 && e->path[0] != '\0') {
-            is_found = is_below(place, e->path) ||
-                       (status->st_nlink > 1 && has_name_in(&id, e->path));
+            is_found =
+                is_below(place, e->path) || (status->st_nlink > 1 && has_name_in(&id, e->path));
         }
     }
     return is_found;

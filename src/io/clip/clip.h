@@ -31,7 +31,7 @@ typedef struct io_clip_def {
     int64_t color_gap_max_ns; /* colour farther in time is not paired; 0 = 50 ms */
     uint32_t flags;           /* rlf_frame_flag of every frame */
     io_clip_origin origin;
-    bool skips_damaged;       /* a frame that cannot be read is counted and passed over */
+    bool skips_damaged; /* a frame that cannot be read is counted and passed over */
     /* Reads entry `index` of the depth times: rig.depth.width x height uint16_t or float. */
     rlf_result (*read_depth)(void *self, int32_t index, void *out);
     /* Reads entry `index` of the colour times into the whole picture. */
