@@ -14,8 +14,9 @@ typedef enum option_kind {
     OPTION_SET = 5,     /* setting_list: one more "NAME=VALUE" */
     OPTION_CHOICE = 6,  /* read by `take` */
     OPTION_PLUGIN = 7,  /* loads a plug-in: `out` is not used */
-    OPTION_SCENE = 8, /* const char *: path of a scene, given as a file or by a shipped one's name */
-    OPTION_FILE = 9,  /* const char *: a file to be written, with an ending of `choices` */
+    OPTION_SCENE =
+        8,           /* const char *: path of a scene, given as a file or by a shipped one's name */
+    OPTION_FILE = 9, /* const char *: a file to be written, with an ending of `choices` */
     OPTION_FOLDER = 10 /* const char *: a folder to be written into */
 } option_kind;
 

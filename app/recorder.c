@@ -307,8 +307,10 @@ static void fill_frame(recorder *r, const rlf_frame *frame)
     if (r->has_last && frame->time_ns <= r->last_ns) {
         return;
     }
-    record_item *item =
-        recorder_has_failed(r) ? NULL : record_queue_reserve(&r->queue, !r->info.is_live);
+    if (recorder_has_failed(r)) { /* which was told */
+        return;
+    }
+    record_item *item = record_queue_reserve(&r->queue, !r->info.is_live);
     if (item == NULL || !record_item_set_frame(item, &r->queue.rig, frame)) {
         r->dropped++;
         return;

@@ -244,7 +244,7 @@ static const char *const *view_names(void)
 
 /* Rows of the table that say which pictures are kept. */
 #define PICTURE_OPTIONS(out)                                                                       \
-    {.name = "pictures", .kind = OPTION_FOLDER, .out = &(out)->picture_folder},                      \
+    {.name = "pictures", .kind = OPTION_FOLDER, .out = &(out)->picture_folder},                    \
         {.name = "picture-every",                                                                  \
          .kind = OPTION_INT64,                                                                     \
          .out = &(out)->picture_every,                                                             \
@@ -305,10 +305,7 @@ static int read_options(int argc, char **argv, run_options *o)
         {.name = "hands", .kind = OPTION_FLAG, .out = &s->enable_hands},
         {.name = "grab", .kind = OPTION_FLAG, .out = &s->enable_grab},
         CAMERA_OPTIONS(s),
-        {.name = "save-map",
-         .kind = OPTION_FILE,
-         .out = &o->save_map_path,
-         .choices = ".map"},
+        {.name = "save-map", .kind = OPTION_FILE, .out = &o->save_map_path, .choices = ".map"},
         {.name = "log", .kind = OPTION_FOLDER, .out = &out->log_folder},
         {.name = "record",
          .kind = OPTION_CHOICE,

@@ -72,10 +72,7 @@ static int parse(int argc, char **argv, fuse_options *o)
     const option_def options[] = {
         {.name = "out", .kind = OPTION_TEXT, .out = &o->out_path},
         {.name = "save", .kind = OPTION_FILE, .out = &o->map_path, .choices = ".map"},
-        {.name = "trajectory",
-         .kind = OPTION_FILE,
-         .out = &o->trajectory_path,
-         .choices = ".txt"},
+        {.name = "trajectory", .kind = OPTION_FILE, .out = &o->trajectory_path, .choices = ".txt"},
         {.name = "picture", .kind = OPTION_FILE, .out = &o->picture_path, .choices = ".png"},
         {.name = "orbit",
          .kind = OPTION_CHOICE,

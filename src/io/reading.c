@@ -2,11 +2,10 @@
 #define _XOPEN_SOURCE 700 /* realpath */
 #include "io/reading.h"
 
-#include "io/file.h"
-
 #include <dirent.h>
 #include <limits.h>
 #include <pthread.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -16,8 +15,8 @@
 
 typedef struct entry {
     io_reading id;
-    int32_t count;        /* of those that read it; 0 = the place is free */
-    char path[PATH_MAX];  /* of a folder, without links; "" = a file */
+    int32_t count;       /* of those that read it; 0 = the place is free */
+    char path[PATH_MAX]; /* of a folder, without links; "" = a file */
 } entry;
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
@@ -34,6 +33,19 @@ static io_reading id_of(const struct stat *status)
 static bool is_same(const io_reading *a, const io_reading *b)
 {
     return a->device == b->device && a->inode == b->inode;
+}
+
+/* Whether folder/name is that file or folder. */
+static bool is_named(const io_reading *id, const char *folder, const char *name)
+{
+    char path[PATH_MAX];
+    struct stat status;
+    const int length = snprintf(path, sizeof(path), "%s/%s", folder, name);
+    if (length < 0 || length >= (int)sizeof(path) || stat(path, &status) != 0) {
+        return false;
+    }
+    const io_reading other = id_of(&status);
+    return is_same(&other, id);
 }
 
 /* With the lock held; NULL = it is not read. */
@@ -117,8 +129,8 @@ void io_reading_end_folder(io_reading *folder)
 /* Of the kinds that a clip consists of; others may lie beside it. */
 static bool is_of_clip(const char *path)
 {
-    static const char *const endings[] = {".png", ".jpg", ".jpeg", ".txt", ".json", ".log",
-                                          ".pcd", ".yml", ".yaml", ".freiburg"};
+    static const char *const endings[] = {".png", ".jpg", ".jpeg", ".txt",  ".json",
+                                          ".log", ".pcd", ".yml",  ".yaml", ".freiburg"};
     const char *dot = strrchr(path, '.');
     for (size_t i = 0; dot != NULL && i < sizeof(endings) / sizeof(endings[0]); i++) {
         if (strcasecmp(dot, endings[i]) == 0) {
@@ -141,12 +153,7 @@ static bool has_name_in(const io_reading *id, const char *folder)
     bool is_found = false;
     for (struct dirent *d = directory != NULL ? readdir(directory) : NULL; d != NULL && !is_found;
          d = readdir(directory)) {
-        char path[IO_PATH_MAX];
-        struct stat status;
-        if (io_path_join(folder, d->d_name, path) == RLF_OK && stat(path, &status) == 0) {
-            const io_reading other = id_of(&status);
-            is_found = is_same(&other, id);
-        }
+        is_found = is_named(id, folder, d->d_name);
     }
     if (directory != NULL) {
         closedir(directory);
@@ -165,8 +172,8 @@ static bool is_in_clip(const struct stat *status, const char *path)
     for (int i = 0; i < READINGS_MAX && !is_found; i++) {
         const entry *e = &entries[i];
         if (e->count > 0 && e->path[0] != '\0') {
-            is_found = is_below(place, e->path) ||
-                       (status->st_nlink > 1 && has_name_in(&id, e->path));
+            is_found =
+                is_below(place, e->path) || (status->st_nlink > 1 && has_name_in(&id, e->path));
         }
     }
     return is_found;
@@ -198,13 +205,7 @@ static bool is_clip_folder(const io_reading *id)
     for (int i = 0; i < READINGS_MAX && !is_found; i++) {
         const entry *e = &entries[i];
         for (size_t k = 0; k < sizeof(parts) / sizeof(parts[0]) && e->count > 0 && !is_found; k++) {
-            char path[IO_PATH_MAX];
-            struct stat status;
-            if (e->path[0] != '\0' && io_path_join(e->path, parts[k], path) == RLF_OK &&
-                stat(path, &status) == 0) {
-                const io_reading part = id_of(&status);
-                is_found = is_same(&part, id);
-            }
+            is_found = e->path[0] != '\0' && is_named(id, e->path, parts[k]);
         }
     }
     return is_found;

@@ -32,7 +32,8 @@ static struct camera {
     _Atomic uint64_t skip; /* numbers that the next frame leaves out */
     _Atomic bool repeats;  /* the next frame has the last one's number and time */
     _Atomic int width;
-    uint16_t depth[2][8]; /* rows are longer than the picture */
+    _Atomic int color_width; /* 0 = as it was opened */
+    uint16_t depth[2][8];    /* rows are longer than the picture */
     uint8_t color[16];
 } camera;
 
@@ -69,7 +70,8 @@ static rlf_result camera_next(void *self, rlf_frame *out)
     out->depth_u16 = camera.depth[0];
     out->depth_stride = sizeof(camera.depth[0]);
     out->depth_units_per_metre = 1000;
-    out->color = (rlf_image_rgba8){camera.color, 2, 2, 8};
+    out->color =
+        (rlf_image_rgba8){camera.color, camera.color_width > 0 ? camera.color_width : 2, 2, 8};
     return RLF_OK;
 }
 
@@ -165,6 +167,29 @@ static void the_newest_frame_wins_and_stays_as_it_is(void **state)
     assert_true(last <= s.given + s.late + 1);
     rlf_source_destroy(&source);
     assert_int_equal(camera.closed, 1);
+}
+
+/* Colour that changes its size is told as what it is, and the camera goes on when it is back. */
+static void colour_of_another_size_is_told(void **state)
+{
+    (void)state;
+    int64_t told_ns = 0;
+    rlf_frame frame;
+    rlf_source *source = open_good();
+    (void)next_frame(source);
+    camera.color_width = 1;
+    const int64_t start_ns = rlf_clock_ns();
+    while (count_lines("its colour is 1 x 2 pixels", &told_ns) == 0 &&
+           rlf_clock_ns() < start_ns + 5 * SECOND) {
+        assert_int_not_equal(rlf_source_next(source, &frame), RLF_END);
+    }
+    assert_int_equal(count_lines("its colour is 1 x 2 pixels", &told_ns), 1);
+    assert_int_equal(count_lines("is it unplugged", &told_ns), 0);
+    camera.color_width = 0;
+    const rlf_frame back = next_frame(source);
+    assert_true((back.flags & RLF_FRAME_DISCONTINUITY) != 0);
+    assert_true(rlf_source_get_status(source).damaged > 0);
+    rlf_source_destroy(&source);
 }
 
 static void lost_and_doubled_frames_are_counted(void **state)
@@ -409,6 +434,7 @@ int main(void)
 #define TEST(f) cmocka_unit_test_setup(f, set_up)
     const struct CMUnitTest tests[] = {
         TEST(the_newest_frame_wins_and_stays_as_it_is),
+        TEST(colour_of_another_size_is_told),
         TEST(lost_and_doubled_frames_are_counted),
         TEST(waiting_ends_soon_and_is_no_busy_loop),
         TEST(frames_allocate_nothing),

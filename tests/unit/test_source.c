@@ -202,6 +202,44 @@ static void the_depth_offset_is_taken_away(void **state)
     rlf_source_destroy(&source);
 }
 
+static rlf_result bad_next(void *self, rlf_frame *out)
+{
+    *out = *(const rlf_frame *)self;
+    return RLF_OK;
+}
+
+/* What the pipeline, a recorder or a renderer would read past its end. */
+static void a_frame_that_is_none_is_not_given(void **state)
+{
+    (void)state;
+    static const uint16_t depth[4];
+    static uint8_t color[4 * 4];
+    rlf_source_info info = make_info();
+    info.rig.has_color = true;
+    info.rig.color = info.rig.depth;
+    const int32_t width = info.rig.depth.width;
+    const int32_t height = info.rig.depth.height;
+    const rlf_frame good = {.depth_u16 = depth,
+                            .depth_stride = 2 * (ptrdiff_t)width,
+                            .depth_units_per_metre = 1000,
+                            .color = {color, width, height, 4 * (ptrdiff_t)width}};
+    rlf_frame frames[] = {good, good, good, good, good, good, good};
+    frames[1].depth_u16 = NULL;
+    frames[2].depth_stride = 2 * (ptrdiff_t)width - 2;
+    frames[3].depth_units_per_metre = 0;
+    frames[4].color.width = width + 1;
+    frames[5].color.stride = 4 * (ptrdiff_t)width - 1;
+    frames[6].confidence = color;
+    const rlf_source_methods methods = {.next = bad_next};
+    for (size_t i = 0; i < sizeof(frames) / sizeof(frames[0]); i++) {
+        rlf_source *source = NULL;
+        rlf_frame frame;
+        assert_int_equal(rlf_source_create_custom(&methods, &info, &frames[i], &source), RLF_OK);
+        assert_int_equal(rlf_source_next(source, &frame), i == 0 ? RLF_OK : RLF_ERROR_INVALID);
+        rlf_source_destroy(&source);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -209,6 +247,7 @@ int main(void)
         cmocka_unit_test(the_depth_offset_is_taken_away),
         cmocka_unit_test(optional_methods_may_be_missing),
         cmocka_unit_test(times_that_cannot_be_subtracted_are_refused),
+        cmocka_unit_test(a_frame_that_is_none_is_not_given),
         cmocka_unit_test(a_bad_camera_is_named_and_self_is_kept),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

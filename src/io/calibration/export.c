@@ -73,8 +73,8 @@ static json_t *motion_json(const rlf_pose *T)
     const rlf_mat3 r = rlf_quat_to_mat3(T->q);
     return json_pack("{s:[[f,f,f],[f,f,f],[f,f,f]], s:[f,f,f,f], s:[f,f,f]}", "rotation", r.m[0][0],
                      r.m[0][1], r.m[0][2], r.m[1][0], r.m[1][1], r.m[1][2], r.m[2][0], r.m[2][1],
-                     r.m[2][2], "quaternion", T->q.x, T->q.y, T->q.z, T->q.w, "translation",
-                     T->p.x, T->p.y, T->p.z);
+                     r.m[2][2], "quaternion", T->q.x, T->q.y, T->q.z, T->q.w, "translation", T->p.x,
+                     T->p.y, T->p.z);
 }
 
 static json_t *camera_json(const rlf_camera *c)

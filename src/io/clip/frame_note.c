@@ -24,17 +24,16 @@ static bool is_color_usual(const io_frame_notes *n, const io_frame_note *f)
 
 int32_t io_frame_notes_add(io_frame_notes *n, const rlf_frame *frame, io_frame_note out[2])
 {
-    const io_frame_note f = {
-        .time_ns = frame->time_ns,
-        .sequence = frame->sequence,
-        .flags = frame->flags,
-        .has_color = n->has_color_camera && frame->color.data != NULL,
-        .color_time_ns = frame->color_time_ns != 0 ? frame->color_time_ns : frame->time_ns};
+    const io_frame_note f = {.time_ns = frame->time_ns,
+                             .sequence = frame->sequence,
+                             .flags = frame->flags,
+                             .has_color = n->has_color_camera && frame->color.data != NULL,
+                             .color_time_ns =
+                                 frame->color_time_ns != 0 ? frame->color_time_ns : frame->time_ns};
     int32_t count = 0;
     const bool is_new = f.has_color && (!n->has_color || f.color_time_ns != n->color_ns[1]);
     if (is_new && n->opener.has_color &&
-        gap(f.color_time_ns, n->opener.time_ns) <
-            gap(n->opener.color_time_ns, n->opener.time_ns)) {
+        gap(f.color_time_ns, n->opener.time_ns) < gap(n->opener.color_time_ns, n->opener.time_ns)) {
         out[count++] = n->opener;
     }
     const bool is_usual = f.sequence == (n->has_last ? n->last_sequence + 1 : 0) &&
@@ -95,7 +94,6 @@ void io_frame_notes_sort(io_frame_note *notes, int32_t count)
 const io_frame_note *io_frame_note_find(const io_frame_note *notes, int32_t count, int64_t time_ns)
 {
     const io_frame_note wanted = {.time_ns = time_ns};
-    return count > 0
-               ? bsearch(&wanted, notes, (size_t)count, sizeof(notes[0]), compare_times)
-               : NULL;
+    return count > 0 ? bsearch(&wanted, notes, (size_t)count, sizeof(notes[0]), compare_times)
+                     : NULL;
 }

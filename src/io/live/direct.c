@@ -10,11 +10,13 @@
 #include <time.h>
 
 #define SECOND_NS INT64_C(1000000000)
-#define NEXT_NS (SECOND_NS / 20)    /* so that Ctrl-C is looked at meanwhile */
-#define END_NS (SECOND_NS * 3 / 2) /* for the driver to come back when the source ends */
+#define NEXT_NS (SECOND_NS / 2) /* so that Ctrl-C is looked at meanwhile */
+#define END_NS SECOND_NS        /* for the driver to come back when the source ends */
 #define TEXT 512
 
 typedef struct direct {
+    const rlf_backend *backend;
+    const rlf_address *address; /* until it is open */
     rlf_opened device;
     char name[128];
     pthread_t thread;
@@ -23,6 +25,7 @@ typedef struct direct {
     pthread_mutex_t mutex;
     pthread_cond_t news;
     bool is_asked, is_answered; /* for a frame; the driver is the thread's in between */
+    bool is_open;               /* or could not be */
     bool is_ending, is_done, is_abandoned;
     rlf_frame frame;
     rlf_result result;
@@ -65,10 +68,30 @@ static void answer(direct *d)
     pthread_cond_broadcast(&d->news);
 }
 
+static rlf_result open_device(direct *d)
+{
+    rlf_result result = d->backend->open(d->address, &d->device);
+    if (result != RLF_OK) {
+        memset(&d->device, 0, sizeof(d->device));
+        return result;
+    }
+    const rlf_rig *rig = &d->device.info.rig;
+    result = rlf_camera_check(&rig->depth, d->name);
+    if (result == RLF_OK && rig->has_color) {
+        result = rlf_camera_check(&rig->color, d->name);
+    }
+    return result == RLF_OK ? live_slot_create(rig, &d->slot) : result;
+}
+
 static void *serve(void *context)
 {
     direct *d = context;
+    const rlf_result result = open_device(d);
     pthread_mutex_lock(&d->mutex);
+    d->result = result;
+    snprintf(d->error, sizeof(d->error), "%s", result < 0 ? rlf_error_text() : "");
+    d->is_open = true;
+    pthread_cond_broadcast(&d->news);
     while (!d->is_ending) {
         if (d->is_asked && !d->is_answered) {
             answer(d);
@@ -171,7 +194,7 @@ static void direct_destroy(void *self)
     }
 }
 
-static rlf_result create(const char *name, const rlf_opened *opened, direct **out)
+static rlf_result create(const rlf_backend *backend, const rlf_address *address, direct **out)
 {
     pthread_condattr_t attributes;
     direct *d = rlf_alloc(sizeof(*d));
@@ -179,39 +202,46 @@ static rlf_result create(const char *name, const rlf_opened *opened, direct **ou
         rlf_free(d);
         return RLF_ERROR_MEMORY;
     }
-    d->device = *opened;
-    snprintf(d->name, sizeof(d->name), "%.127s", name);
+    d->backend = backend;
+    d->address = address;
+    snprintf(d->name, sizeof(d->name), "%.127s", address->source);
     d->status.is_connected = true;
     pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC);
     pthread_mutex_init(&d->mutex, NULL);
     pthread_cond_init(&d->news, &attributes);
     pthread_condattr_destroy(&attributes);
-    rlf_result result = live_slot_create(&opened->info.rig, &d->slot);
-    if (result == RLF_OK && pthread_create(&d->thread, NULL, serve, d) != 0) {
-        result = rlf_fail(RLF_ERROR_MEMORY, "%s: no thread to be had for it", name);
-    }
-    if (result != RLF_OK) {
+    if (pthread_create(&d->thread, NULL, serve, d) != 0) {
         free_direct(d);
-        return result;
+        return rlf_fail(RLF_ERROR_MEMORY, "%s: no thread to be had for it", address->source);
     }
     *out = d;
     return RLF_OK;
 }
 
-rlf_result io_direct_wrap(const char *name, rlf_opened *inout)
+rlf_result io_direct_open(const rlf_backend *backend, const rlf_address *address, rlf_opened *out)
 {
     direct *d = NULL;
-    rlf_result result = rlf_camera_check(&inout->info.rig.depth, name);
-    if (result == RLF_OK && inout->info.rig.has_color) {
-        result = rlf_camera_check(&inout->info.rig.color, name);
+    rlf_result result = create(backend, address, &d);
+    if (result != RLF_OK) {
+        return result;
     }
-    result = result == RLF_OK ? create(name, inout, &d) : result;
-    if (result == RLF_OK) {
-        const bool has_status = inout->methods.status != NULL;
-        inout->methods = (rlf_source_methods){.next = direct_next,
-                                              .status = has_status ? direct_status : NULL,
-                                              .destroy = direct_destroy};
-        inout->self = d;
+    pthread_mutex_lock(&d->mutex);
+    while (!d->is_open) {
+        pthread_cond_wait(&d->news, &d->mutex);
     }
-    return result;
+    pthread_mutex_unlock(&d->mutex);
+    if (d->result != RLF_OK) {
+        char error[TEXT];
+        result = d->result;
+        snprintf(error, sizeof(error), "%s", d->error);
+        direct_destroy(d);
+        return rlf_fail(result, "%s", error);
+    }
+    *out = d->device;
+    out->methods =
+        (rlf_source_methods){.next = direct_next,
+                             .status = d->device.methods.status != NULL ? direct_status : NULL,
+                             .destroy = direct_destroy};
+    out->self = d;
+    return RLF_OK;
 }

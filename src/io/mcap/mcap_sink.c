@@ -353,7 +353,8 @@ static rlf_result mcap_close(void *self, rlf_recording_status *status)
     io_mcap_written written = {0};
     rlf_result result = io_mcap_writer_close(&s->writer, &written);
     status->bytes = written.bytes;
-    status->frames = s->is_started ? written.of_channel[s->depth - 1] : 0; /* a full disk keeps few */
+    status->frames =
+        s->is_started ? written.of_channel[s->depth - 1] : 0; /* a full disk keeps few */
     io_jpeg_encoder_destroy(&s->jpeg);
     rlf_free(s->scratch);
     rlf_free(s);

@@ -47,9 +47,8 @@ io_frame_note *io_mcap_read_notes(io_mcap_reader *reader, io_clip_origin *origin
 {
     const int32_t index = io_mcap_find_topic(reader, IO_ROS_STRING, IO_TOPIC_FRAME);
     const io_mcap_channel *c = index >= 0 ? io_mcap_channel_at(reader, index) : NULL;
-    io_frame_note *notes = c != NULL && origin->has_notes
-                               ? rlf_alloc_array((size_t)c->count, sizeof(notes[0]))
-                               : NULL;
+    io_frame_note *notes =
+        c != NULL && origin->has_notes ? rlf_alloc_array((size_t)c->count, sizeof(notes[0])) : NULL;
     int32_t count = 0;
     for (int32_t i = 0; notes != NULL && i < c->count; i++) {
         io_cdr_span bytes;

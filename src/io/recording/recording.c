@@ -83,7 +83,7 @@ rlf_result rlf_recording_open(const char *path, const rlf_source_info *info,
         return RLF_ERROR_MEMORY;
     }
     result = is_folder(path) ? io_folder_sink_open(path, info, def, &recording->sink)
-                                        : io_mcap_sink_open(path, info, def, &recording->sink);
+                             : io_mcap_sink_open(path, info, def, &recording->sink);
     if (result != RLF_OK) {
         rlf_free(recording);
         return result;
@@ -102,15 +102,14 @@ static rlf_result check_frame(const rlf_recording *r, const rlf_frame *f)
     }
     const int64_t color_ns = f->color.data != NULL ? f->color_time_ns : 0;
     if (f->time_ns < 0 || f->time_ns > TIME_MAX_NS || color_ns > TIME_MAX_NS) {
-        return rlf_fail(RLF_ERROR_INVALID,
-                        "recording: frame %llu: its time is %lld ns: use 0 to %lld",
-                        (unsigned long long)f->sequence,
-                        (long long)(color_ns > TIME_MAX_NS ? color_ns : f->time_ns),
-                        (long long)TIME_MAX_NS);
+        return rlf_fail(
+            RLF_ERROR_INVALID, "recording: frame %llu: its time is %lld ns: use 0 to %lld",
+            (unsigned long long)f->sequence,
+            (long long)(color_ns > TIME_MAX_NS ? color_ns : f->time_ns), (long long)TIME_MAX_NS);
     }
     const bool is_float = f->depth_f32 != NULL;
-    if (r->has_first &&
-        (is_float != r->is_float || (!is_float && f->depth_units_per_metre != r->units_per_metre))) {
+    if (r->has_first && (is_float != r->is_float ||
+                         (!is_float && f->depth_units_per_metre != r->units_per_metre))) {
         return rlf_fail(RLF_ERROR_INVALID,
                         "recording: frame %llu: its depth is in other units than that of the first "
                         "one: begin another recording",

@@ -60,22 +60,14 @@ static rlf_result wrap(const io_replay *replay, const char *source, rlf_opened *
     return result;
 }
 
-/* A camera's frames come by a thread, the newest first; or each in its turn. */
+/* A camera's newest frame, or each in its turn; both by a thread of its own. */
 static rlf_result open_device(const rlf_backend *backend, bool is_direct,
                               const rlf_address *address, rlf_opened *out)
 {
-    if (backend->is_live && !is_direct) {
-        return io_live_open(backend, address, out);
+    if (!backend->is_live) {
+        return backend->open(address, out);
     }
-    rlf_result result = backend->open(address, out);
-    if (result != RLF_OK || !backend->is_live) {
-        return result;
-    }
-    result = io_direct_wrap(address->source, out);
-    if (result != RLF_OK && out->methods.destroy != NULL) {
-        out->methods.destroy(out->self);
-    }
-    return result;
+    return is_direct ? io_direct_open(backend, address, out) : io_live_open(backend, address, out);
 }
 
 static rlf_result open_with(const rlf_backend *backend, const char *source, io_address *parts,
