@@ -10,8 +10,10 @@
 
 static void tell(viewer *v, const char *text, bool is_error)
 {
-    const viewer_message newest = v->messages[0];
-    if (v->message_count == 0 || strcmp(newest.text, text) != 0) {
+    if (text[0] == '\0') {
+        return;
+    }
+    if (v->message_count == 0 || strcmp(v->messages[0].text, text) != 0) {
         memmove(v->messages + 1, v->messages, sizeof v->messages - sizeof v->messages[0]);
         v->message_count += v->message_count < VIEWER_MESSAGES_MAX ? 1 : 0;
     }

@@ -196,7 +196,10 @@ void viewer_panel_draw(viewer_panel *p)
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoScrollbar |
                      ImGuiWindowFlags_NoScrollWithMouse);
-    ImGui::BeginChild("controls", ImVec2(0.0f, -MESSAGE_ROWS * ImGui::GetTextLineHeightWithSpacing()));
+    const float rest = MESSAGE_ROWS * ImGui::GetTextLineHeightWithSpacing();
+    /* Tab leads from one field to the next, but into the panel only the mouse leads. */
+    ImGui::BeginChild("controls", ImVec2(0.0f, -rest), false,
+                      p->v->window.is_key_taken ? 0 : ImGuiWindowFlags_NoNavInputs);
     ImGui::PushItemWidth(0.52f * (float)own);
     draw_all(p);
     ImGui::PopItemWidth();
