@@ -4,6 +4,8 @@
 
 /* One per subcommand; argv[0] is the subcommand's name. */
 int run_main(int argc, char **argv);
+/* As `relief run` without a SOURCE; -1 where there is no window to choose one in. */
+int run_alone(void);
 int record_main(int argc, char **argv);
 int place_main(int argc, char **argv);
 int export_main(int argc, char **argv);

@@ -1,6 +1,7 @@
 /* The `relief` command: finds the subcommand. */
 #include "command.h"
 #include "commands.h"
+#include "parts.h"
 #include "streams.h"
 #include "suggest.h"
 
@@ -54,6 +55,7 @@ static void print_help(FILE *file)
     print_commands(file, true);
     fprintf(file,
             "\nexamples:\n"
+            "  relief                                         choose a camera, recording or scene\n"
             "  relief run synthetic:room                      a window, no camera needed\n"
             "  relief run synthetic:room --headless --video out.mp4\n"
             "  relief run path/to/clip --scene rain\n\n"
@@ -117,11 +119,25 @@ static int help(int argc, char **argv)
     return EXIT_DONE;
 }
 
+/* `relief` alone: the window's start page; the usage where there is no window. */
+static int run_bare(void)
+{
+    command_catch_interrupts();
+    const int status = run_alone();
+    if (status >= 0) {
+        return status;
+    }
+    print_help(stderr);
+    if (!part_is_built(PART_WINDOW)) {
+        fprintf(stderr, "\nrelief: %s\n", rlf_error_text());
+    }
+    return EXIT_USAGE;
+}
+
 static int run(int argc, char **argv)
 {
     if (argc < 2) {
-        print_help(stderr);
-        return EXIT_USAGE;
+        return run_bare();
     }
     const char *name = argv[1];
     if (strcmp(name, "help") == 0) {
@@ -137,6 +153,7 @@ static int run(int argc, char **argv)
     }
     if (is_either(name, "--version", "-V")) {
         printf("relief %d.%d.%d\n", RLF_VERSION_MAJOR, RLF_VERSION_MINOR, RLF_VERSION_PATCH);
+        parts_print();
         return EXIT_DONE;
     }
     const subcommand *found = find(name);

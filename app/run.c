@@ -1,6 +1,7 @@
 /* `relief run`: frames through the whole pipeline, in a window or headless. */
 #include "command.h"
 #include "commands.h"
+#include "parts.h"
 #include "run.h"
 #ifdef RLF_HAVE_GL
 #include "relief/gl.h"
@@ -12,20 +13,44 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Without a SOURCE the window's start page asks for one. */
+/* The window's start page: RLF_END when it was closed, RLF_ERROR_DEVICE or _UNSUPPORTED where there
+ * is no window to be had. */
+static rlf_result ask_for_source(run_options *o)
+{
+#ifdef RLF_HAVE_VIEWER
+    static viewer_choice choice;
+    const rlf_result result = start_page_choose(&choice);
+    if (result == RLF_OK) {
+        const bool has_scene = o->session.scene_path != NULL || choice.scene[0] == '\0';
+        o->session.source = choice.source;
+        o->session.scene_path = has_scene ? o->session.scene_path : choice.scene;
+    }
+    return result;
+#else
+    (void)o;
+    return rlf_fail(RLF_ERROR_UNSUPPORTED, "this build has no window: %s", part_cure(PART_WINDOW));
+#endif
+}
+
+static bool has_no_window(rlf_result result)
+{
+    return result == RLF_ERROR_DEVICE || result == RLF_ERROR_UNSUPPORTED;
+}
+
+/* -1 to go on, else the exit status. */
 static int choose_source(run_options *o)
 {
     if (o->session.source != NULL) {
         return -1;
     }
-#ifdef RLF_HAVE_VIEWER
-    static char source[START_PAGE_SOURCE];
-    if (!o->is_headless) {
-        o->session.source = source;
-        return start_page_choose(source);
+    if (o->is_headless) {
+        return command_usage("run", "needs a SOURCE");
     }
-#endif
-    return command_usage("run", "needs a SOURCE");
+    const rlf_result result = ask_for_source(o);
+    if (has_no_window(result)) {
+        return command_usage("run", "needs a SOURCE: no start page: %s", rlf_error_text());
+    }
+    return result == RLF_OK ? -1 : result == RLF_END ? EXIT_DONE : command_failed();
 }
 
 /* Falls back to the soft renderer, and says so, when GL is not to be had. */
@@ -45,7 +70,9 @@ static void choose_headless_renderer(run_options *o, session *s)
     rlf_log(RLF_LOG_WARNING, "%s; going on with the soft renderer", rlf_error_text());
 #else
     (void)s;
-    rlf_log(RLF_LOG_WARNING, "this build has no OpenGL renderer; going on with the soft one");
+    rlf_log(RLF_LOG_WARNING,
+            "this build has no OpenGL renderer; going on with the soft one: for it %s",
+            part_cure(PART_OPENGL));
 #endif
     o->use_gl = false;
 }
@@ -82,7 +109,8 @@ rlf_result run_window(const run_options *o, session *s, run_output *output)
     (void)o;
     (void)s;
     (void)output;
-    return rlf_fail(RLF_ERROR_UNSUPPORTED, "this build has no window; add --headless");
+    return rlf_fail(RLF_ERROR_UNSUPPORTED, "this build has no window: add --headless, or %s",
+                    part_cure(PART_WINDOW));
 }
 
 void run_window_end(void) {}
@@ -175,30 +203,50 @@ static void choose_end(run_options *o)
     }
 }
 
+/* Everything is known but what the options leave to the run. */
+static int run_chosen(run_options *o)
+{
+    choose_end(o);
+    o->session.record.is_switched = !o->is_headless;
+    o->output.scene_path = o->session.scene_path;
+    session s;
+    if (session_open(&o->session, &s) != RLF_OK) {
+        return command_not_opened("run");
+    }
+    if (o->is_headless && !o->output.is_quiet && !writes_something(o)) {
+        fprintf(stderr, "relief run: nothing will be kept: add --video FILE, --pictures DIR or "
+                        "--log DIR\n");
+    }
+    o->output.finds_gravity = s.scene.finds_gravity;
+    o->output.is_light_given = o->session.is_light_set;
+    const int status = run_session(o, &s);
+    session_close(&s);
+    run_window_end();
+    return status;
+}
+
 int run_main(int argc, char **argv)
 {
     run_options options;
     memset(&options, 0, sizeof(options));
     int status = run_parse(argc, argv, &options);
     status = status < 0 ? choose_source(&options) : status;
-    if (status >= 0) {
-        return status;
+    return status < 0 ? run_chosen(&options) : status;
+}
+
+int run_alone(void)
+{
+    char name[] = "run";
+    char *arguments[] = {name, NULL};
+    run_options options;
+    memset(&options, 0, sizeof(options));
+    const int status = run_parse(1, arguments, &options);
+    const rlf_result result = status < 0 ? ask_for_source(&options) : RLF_OK;
+    if (has_no_window(result)) {
+        return -1;
     }
-    choose_end(&options);
-    options.session.record.is_switched = !options.is_headless;
-    options.output.scene_path = options.session.scene_path;
-    session s;
-    if (session_open(&options.session, &s) != RLF_OK) {
-        return command_not_opened("run");
+    if (status >= 0 || result != RLF_OK) {
+        return status >= 0 ? status : result == RLF_END ? EXIT_DONE : command_failed();
     }
-    if (options.is_headless && !options.output.is_quiet && !writes_something(&options)) {
-        fprintf(stderr, "relief run: nothing will be kept: add --video FILE, --pictures DIR or "
-                        "--log DIR\n");
-    }
-    options.output.finds_gravity = s.scene.finds_gravity;
-    options.output.is_light_given = options.session.is_light_set;
-    status = run_session(&options, &s);
-    session_close(&s);
-    run_window_end();
-    return status;
+    return run_chosen(&options);
 }

@@ -1,11 +1,14 @@
-/* Scene files to choose from in the window. */
+/* Scenes to choose from in the window. */
 #define _XOPEN_SOURCE 700
 #include "scene_list.h"
+
+#include "scene_files.h"
 
 #include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static int is_scene(const struct dirent *entry)
 {
@@ -24,6 +27,7 @@ static int32_t list_folder(const char *folder, viewer_choice *out)
             const char *name = entries[i]->d_name;
             (void)snprintf(c->source, sizeof(c->source), "%.700s/%.255s", folder, name);
             (void)snprintf(c->text, sizeof(c->text), "%.*s", (int)strlen(name) - 5, name);
+            c->scene[0] = '\0';
         }
         free(entries[i]);
     }
@@ -31,16 +35,58 @@ static int32_t list_folder(const char *folder, viewer_choice *out)
     return count;
 }
 
+static bool is_shipped(const scene_entry *entries, int32_t count, const char *path)
+{
+    for (int32_t i = 0; i < count; i++) {
+        if (strcmp(entries[i].path, path) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 int32_t scene_list(const char *scene_path, viewer_choice *out)
 {
+    static scene_entry entries[SCENES_MAX];
     char folder[VIEWER_CHOICE_SOURCE];
-    const char *slash = scene_path != NULL ? strrchr(scene_path, '/') : NULL;
-    if (scene_path != NULL) {
+    int32_t count = 0;
+    const int32_t shipped = scene_files_list(entries, SCENES_MAX);
+    if (scene_path != NULL && !is_shipped(entries, shipped, scene_path)) {
+        const char *slash = strrchr(scene_path, '/');
         (void)snprintf(folder, sizeof(folder), "%.*s",
                        slash != NULL ? (int)(slash - scene_path) : 1,
                        slash != NULL ? scene_path : ".");
-        return list_folder(folder, out);
+        count = list_folder(folder, out);
     }
-    const int32_t count = list_folder("scenes", out);
-    return count > 0 ? count : list_folder(RELIEF_SCENES_FOLDER, out);
+    for (int32_t i = 0; i < shipped && count < VIEWER_CHOICES_MAX; i++) {
+        viewer_choice *c = &out[count++];
+        (void)snprintf(c->source, sizeof(c->source), "%s", entries[i].path);
+        (void)snprintf(c->text, sizeof(c->text), "%.95s", entries[i].name);
+        c->scene[0] = '\0';
+    }
+    return count;
+}
+
+/* The simulated rooms are always there; recordings are where they were built. */
+static bool is_source_there(const char *source)
+{
+    return strncmp(source, "synthetic:", 10) == 0 || access(source, R_OK) == 0;
+}
+
+int32_t scene_list_played(viewer_choice *out, int32_t capacity)
+{
+    static scene_entry entries[SCENES_MAX];
+    const int32_t found = scene_files_list(entries, SCENES_MAX);
+    int32_t count = 0;
+    for (int32_t i = 0; i < found && count < capacity; i++) {
+        const scene_entry *e = &entries[i];
+        if (e->source[0] == '\0' || !is_source_there(e->source)) {
+            continue;
+        }
+        viewer_choice *c = &out[count++];
+        (void)snprintf(c->source, sizeof(c->source), "%s", e->source);
+        (void)snprintf(c->scene, sizeof(c->scene), "%s", e->path);
+        (void)snprintf(c->text, sizeof(c->text), "scene %.30s: %.56s", e->name, e->about);
+    }
+    return count;
 }

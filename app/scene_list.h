@@ -1,11 +1,15 @@
-/* Scene files to choose from in the window. */
+/* Scenes to choose from in the window. */
 #ifndef RELIEF_APP_SCENE_LIST_H
 #define RELIEF_APP_SCENE_LIST_H
 
 #include "viewer/start.h"
 
-/* The *.json files beside the scene that is open; without one those of ./scenes, else those that
- * are installed. In order, at most VIEWER_CHOICES_MAX; returns how many. */
+/* The scenes that come with Relief; before them the *.json files beside the scene that is open,
+ * where that is none of these. At most VIEWER_CHOICES_MAX; returns how many. */
 int32_t scene_list(const char *scene_path, viewer_choice *out);
+
+/* The scenes that come with Relief, each with the source that it was made for, where that is there.
+ * At most `capacity`; returns how many. */
+int32_t scene_list_played(viewer_choice *out, int32_t capacity);
 
 #endif

@@ -133,8 +133,7 @@ static void print_kinds(const kind_list *list, bool (*is_wanted)(const rlf_sourc
         if (k->plugin != NULL) {
             printf("%*splug-in %s\n", indent, "", k->plugin);
         }
-        print_below(indent, "NOT HERE: ", k->unavailable);
-        print_below(indent, "made without it: configure with -D", k->option);
+        print_below(indent, is_absent(k) ? "to get it: " : "NOT HERE: ", k->unavailable);
     }
 }
 

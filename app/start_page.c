@@ -1,14 +1,16 @@
-/* What `relief run` shows without a SOURCE: cameras, the simulated room, recent recordings. */
+/* What there is to choose without a SOURCE: cameras, the simulated room, recent recordings, scenes.
+ */
 #include "start_page.h"
 
 #include "command.h"
 #include "recent.h"
 #include "relief/io.h"
+#include "scene_list.h"
 
 #include <stdio.h>
 #include <string.h>
 
-#define CAMERAS_MAX (VIEWER_CHOICES_MAX - RECENT_MAX - 1)
+#define CAMERAS_MAX 16
 
 /* The end of a path tells more than its beginning. */
 static const char *end_of(const char *path)
@@ -26,10 +28,12 @@ int32_t start_page_list(viewer_choice *out)
     for (int32_t i = 0; i < found && i < CAMERAS_MAX; i++) {
         viewer_choice *c = &out[count++];
         (void)snprintf(c->source, sizeof(c->source), "%.255s", cameras[i].source);
+        c->scene[0] = '\0';
         (void)snprintf(c->text, sizeof(c->text), "camera: %.80s", cameras[i].description);
     }
     viewer_choice *room = &out[count++];
     (void)snprintf(room->source, sizeof(room->source), "synthetic:room");
+    room->scene[0] = '\0';
     (void)snprintf(room->text, sizeof(room->text), "simulated room%s",
                    found <= 0 ? " (no camera is plugged in)" : "");
     recent_list recent;
@@ -37,6 +41,7 @@ int32_t start_page_list(viewer_choice *out)
     for (int32_t i = 0; i < recent.count; i++) {
         viewer_choice *c = &out[count++];
         (void)snprintf(c->source, sizeof(c->source), "%.1023s", recent.paths[i]);
+        c->scene[0] = '\0';
         (void)snprintf(c->text, sizeof(c->text), "recent: %s", end_of(recent.paths[i]));
     }
     return count;
@@ -45,19 +50,11 @@ int32_t start_page_list(viewer_choice *out)
 static int32_t list_choices(void *context, viewer_choice *out)
 {
     (void)context;
-    return start_page_list(out);
+    const int32_t count = start_page_list(out);
+    return count + scene_list_played(out + count, VIEWER_CHOICES_MAX - count);
 }
 
-int start_page_choose(char out[START_PAGE_SOURCE])
+rlf_result start_page_choose(viewer_choice *out)
 {
-    viewer_choice choice;
-    const rlf_result result = viewer_choose(list_choices, NULL, &command_interrupted, &choice);
-    if (result == RLF_ERROR_DEVICE) {
-        return command_usage("run", "needs a SOURCE: no start page: %s", rlf_error_text());
-    }
-    if (result != RLF_OK) {
-        return result == RLF_END ? EXIT_DONE : command_failed();
-    }
-    (void)snprintf(out, START_PAGE_SOURCE, "%s", choice.source);
-    return -1;
+    return viewer_choose(list_choices, NULL, &command_interrupted, out);
 }

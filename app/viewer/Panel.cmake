@@ -9,7 +9,7 @@ if(RELIEF_WITH_IMGUI)
   elseif(NOT RELIEF_WITH_IMGUI STREQUAL "AUTO")
     message(FATAL_ERROR "RELIEF_WITH_IMGUI is ON, but it needs imgui (libimgui-dev) and a C++ compiler")
   else()
-    message(STATUS "imgui: not installed, the window has no panel")
+    message(STATUS "imgui: not installed, the window has no panel: script/bootstrap (libimgui-dev)")
   endif()
 endif()
 if(NOT has_panel)
@@ -26,7 +26,8 @@ target_compile_options(relief_panel PRIVATE -Wall -Wextra -fno-exceptions
 if(RELIEF_WERROR)
   target_compile_options(relief_panel PRIVATE -Werror)
 endif()
-target_include_directories(relief_panel PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}
+target_include_directories(relief_panel PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src
                                                 ${PROJECT_SOURCE_DIR}/include)
 target_link_libraries(relief_panel PRIVATE PkgConfig::imgui PkgConfig::glfw3)
 target_link_libraries(relief_app PRIVATE relief_panel)
+target_compile_definitions(relief_app PRIVATE RLF_HAVE_PANEL)

@@ -28,7 +28,7 @@ void viewer_set_view(viewer *v, rlf_view view)
     const rlf_view views[2] = {v->is_beside ? RLF_VIEW_CAMERA : view, view};
     v->view = view;
     if (rlf_pipeline_set_views(v->stage.pipeline, views, v->is_beside ? 2 : 1) != RLF_OK) {
-        viewer_show_message(v, rlf_error_text());
+        viewer_show_error(v, rlf_error_text());
     }
     v->is_redraw_due = true;
 }
@@ -37,12 +37,12 @@ void viewer_save_picture(viewer *v)
 {
     char text[VIEWER_LINE_SIZE] = "";
     if (v->options->on_picture == NULL || !v->has_frame) {
-        viewer_show_message(v, "no place to save pictures to");
+        viewer_show_error(v, "no place to save pictures to");
         return;
     }
     rlf_result result =
         v->options->on_picture(v->options->context, &v->frame.render.image, text, sizeof text);
-    viewer_show_message(v, result == RLF_OK ? text : rlf_error_text());
+    viewer_show_result(v, result, text);
 }
 
 void viewer_toggle_record(viewer *v)
@@ -50,14 +50,14 @@ void viewer_toggle_record(viewer *v)
     char text[VIEWER_LINE_SIZE];
     if (v->options->on_record != NULL) {
         const rlf_result result = v->options->on_record(v->options->context, text, sizeof text);
-        viewer_show_message(v, result == RLF_OK ? text : rlf_error_text());
+        viewer_show_result(v, result, text);
     }
 }
 
 void viewer_restart(viewer *v)
 {
     if (rlf_pipeline_restart(v->stage.pipeline) != RLF_OK) {
-        viewer_show_message(v, rlf_error_text());
+        viewer_show_error(v, rlf_error_text());
         return;
     }
     v->is_at_end = false;
@@ -99,7 +99,7 @@ void viewer_seek_to(viewer *v, double share)
         return;
     }
     if (playback_seek(p, index) != RLF_OK) {
-        viewer_show_message(v, rlf_error_text());
+        viewer_show_error(v, rlf_error_text());
         return;
     }
     v->is_at_end = false;

@@ -6,7 +6,7 @@
 void viewer_get_area(const viewer *v, int32_t *out_width, int32_t *out_height)
 {
     viewer_window_get_size(&v->window, out_width, out_height);
-    *out_width -= v->panel_width < *out_width ? v->panel_width : 0;
+    *out_width -= v->window.panel_width < *out_width ? v->window.panel_width : 0;
 }
 
 bool viewer_is_overlay_shown(const viewer *v)

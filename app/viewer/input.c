@@ -66,8 +66,8 @@ static void take_key(viewer_window *window, int key)
         glfwGetCursorPos(window->handle, &x, &y);
         wish_throw(window, x, y, 0.0);
         break;
-    case GLFW_KEY_Q:
-    case GLFW_KEY_ESCAPE: glfwSetWindowShouldClose(window->handle, GLFW_TRUE); break;
+    case GLFW_KEY_ESCAPE: wishes->leave = true; break;
+    case GLFW_KEY_Q: glfwSetWindowShouldClose(window->handle, GLFW_TRUE); break;
     case GLFW_KEY_0: wishes->view = 9; break;
     case GLFW_KEY_O: wishes->view = 10; break;
     case GLFW_KEY_C: wishes->view = 11; break;
@@ -114,12 +114,24 @@ static void on_key(GLFWwindow *handle, int key, int scancode, int action, int mo
     }
 }
 
+static bool is_over_panel(const viewer_window *window)
+{
+    int width = 0;
+    int height = 0;
+    double x;
+    double y;
+    glfwGetWindowSize(window->handle, &width, &height);
+    glfwGetCursorPos(window->handle, &x, &y);
+    return window->is_list_open || (window->panel_width > 0 && x >= width - window->panel_width);
+}
+
 static void on_button(GLFWwindow *handle, int button, int action, int modifiers)
 {
     (void)modifiers;
     viewer_window *window = glfwGetWindowUserPointer(handle);
     window->wishes.refresh = true;
-    if (window->is_mouse_taken && action == GLFW_PRESS) {
+    if (action == GLFW_PRESS && is_over_panel(window)) {
+        window->is_key_taken = true; /* until the panel is drawn and knows better */
         return;
     }
     if (button == GLFW_MOUSE_BUTTON_MIDDLE && action == GLFW_PRESS) {
@@ -136,6 +148,7 @@ static void on_button(GLFWwindow *handle, int button, int action, int modifiers)
         window->is_held = false;
     }
     if (action == GLFW_PRESS) {
+        window->is_key_taken = false; /* it leaves the control that had the focus */
         glfwGetCursorPos(handle, &window->press_x, &window->press_y);
         window->is_dragging = true;
         window->wishes.press = true;
@@ -167,7 +180,7 @@ static void on_scroll(GLFWwindow *handle, double x, double y)
     (void)x;
     viewer_window *window = glfwGetWindowUserPointer(handle);
     window->wishes.refresh = true;
-    window->wishes.zoom += window->is_mouse_taken ? 0.0 : y;
+    window->wishes.zoom += is_over_panel(window) ? 0.0 : y;
 }
 
 static void on_refresh(GLFWwindow *handle)

@@ -109,6 +109,7 @@ bool viewer_seek_pick(const viewer *v, double x, double y, bool is_held, double 
 static void draw_seek_bar(viewer *v, int32_t width, int32_t height, int32_t scale)
 {
     const uint8_t back[4] = {0, 0, 0, 150};
+    const uint8_t left[4] = {110, 110, 110, 230};
     const uint8_t done[4] = {250, 190, 70, 230};
     const playback *p = v->stage.playback;
     const mark_rect r = seek_rect(width, height);
@@ -121,6 +122,7 @@ static void draw_seek_bar(viewer *v, int32_t width, int32_t height, int32_t scal
     const int64_t count = playback_get_count(p);
     const int64_t index = playback_get_index(p) > 0 ? playback_get_index(p) : 0;
     fill(&v->marks, (mark_rect){0, 0, w, h}, back);
+    fill(&v->marks, (mark_rect){0, h - (h + 3) / 4, w, h}, left);
     fill(&v->marks, (mark_rect){0, h - (h + 3) / 4, (int32_t)(index * w / (count - 1)), h}, done);
     (void)snprintf(text, sizeof text, "%lld of %lld  %s", (long long)index, (long long)count - 1,
                    playback_name(playback_get_end(p)));
@@ -164,7 +166,9 @@ void viewer_draw_marks(viewer *v, int32_t width, int32_t height, int32_t scale)
 {
     const bool has_bar = has_seek_bar(v);
     const int32_t bottom = has_bar ? seek_rect(width, height).y0 - MARGIN : height;
-    draw_plot(v, width, height, bottom, scale);
+    if (v->window.panel_width == 0) { /* the panel has a plot of its own */
+        draw_plot(v, width, height, bottom, scale);
+    }
     draw_view_legend(v, width, height, bottom, scale);
     if (has_bar) {
         draw_seek_bar(v, width, height, scale);

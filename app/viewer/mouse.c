@@ -86,7 +86,7 @@ static void throw_body(viewer *v, const viewer_ray *ray, double drag_fraction)
     rlf_body_def body = viewer_throw_body(&v->thrown, ray, speed, v->thrown_count);
     rlf_body_id id;
     if (rlf_world_add_body(rlf_pipeline_get_world(v->stage.pipeline), &body, &id) != RLF_OK) {
-        viewer_show_message(v, rlf_error_text());
+        viewer_show_error(v, rlf_error_text());
         return;
     }
     v->thrown_count++;

@@ -38,15 +38,13 @@ bool viewer_open_stage(viewer *v, viewer_open what, const char *text)
 {
     viewer_stage stage = v->stage;
     if (v->options->on_open == NULL) {
-        viewer_show_message(v, "nothing else can be opened here");
+        viewer_show_error(v, "nothing else can be opened here");
         return false;
     }
     if (v->options->on_open(v->options->context, what, text, &stage) != RLF_OK) {
-        viewer_show_message(v, rlf_error_text());
-        (void)snprintf(v->told, sizeof v->told, "%s", rlf_error_text());
+        viewer_show_error(v, rlf_error_text());
         return false;
     }
-    v->told[0] = '\0';
     begin_stage(v, &stage);
     return true;
 }
@@ -59,9 +57,8 @@ static void open_model(viewer *v, const char *path)
     if (v->options->on_model == NULL ||
         v->options->on_model(v->options->context, path, thrown.size_m, &thrown.shape,
                              &thrown.look) != RLF_OK) {
-        viewer_show_message(v, v->options->on_model != NULL ? rlf_error_text()
-                                                            : "models cannot be opened here");
-        (void)snprintf(v->told, sizeof v->told, "%s", v->message);
+        viewer_show_error(v, v->options->on_model != NULL ? rlf_error_text()
+                                                          : "models cannot be opened here");
         return;
     }
     (void)snprintf(thrown.model, sizeof thrown.model, "%s", path);

@@ -9,6 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#define MESSAGE_ROWS 6
+
 bool viewer_panel_is_built(void)
 {
     return true;
@@ -88,24 +90,30 @@ void panel_note(const char *text)
     ImGui::PopStyleColor();
 }
 
-static void draw_told(viewer_panel *p)
+/* Always there and always as high, so that a message moves no control. */
+static void draw_messages(viewer_panel *p)
 {
-    if (p->v->told[0] == '\0') {
-        return;
-    }
-    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 0.5f, 0.4f, 1.0f));
-    ImGui::TextWrapped("%s", p->v->told);
-    ImGui::PopStyleColor();
-    if (ImGui::SmallButton("seen")) {
-        p->v->told[0] = '\0';
-    }
+    const viewer *v = p->v;
     ImGui::Separator();
+    ImGui::BeginChild("messages");
+    panel_note(v->message_count > 0 ? "Messages, the newest first" : "Messages: none yet");
+    for (int32_t i = 0; i < v->message_count; i++) {
+        if (v->messages[i].is_error) {
+            ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 0.5f, 0.4f, 1.0f));
+            ImGui::TextWrapped("%s", v->messages[i].text);
+            ImGui::PopStyleColor();
+        } else {
+            panel_note(v->messages[i].text);
+        }
+    }
+    ImGui::EndChild();
 }
 
 /* A key that went up before the next picture was still pressed: imgui alone would not know. */
 static void press_taps(viewer_panel *p, bool is_before)
 {
     viewer_window *window = &p->v->window;
+#if IMGUI_VERSION_NUM < 18700
     ImGuiIO &io = ImGui::GetIO();
     for (int32_t i = 0; i < window->tap_count; i++) {
         const int key = window->taps[i];
@@ -113,7 +121,24 @@ static void press_taps(viewer_panel *p, bool is_before)
             io.KeysDown[key] = is_before || glfwGetKey(window->handle, key) == GLFW_PRESS;
         }
     }
+#endif
     window->tap_count = is_before ? window->tap_count : 0;
+}
+
+/* In an open list the arrows choose, Enter and Space take, and Escape closes it. Elsewhere keys are
+ * the window's. */
+static void lead_list(const viewer_panel *p)
+{
+    ImGuiIO &io = ImGui::GetIO();
+    if (!p->v->window.is_list_open) {
+        io.ConfigFlags &= ~ImGuiConfigFlags_NavEnableKeyboard;
+        return;
+    }
+    io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+#if IMGUI_VERSION_NUM < 18700
+    const bool is_taken = io.KeysDown[GLFW_KEY_ENTER] || io.KeysDown[GLFW_KEY_KP_ENTER];
+    io.NavInputs[ImGuiNavInput_Activate] = is_taken ? 1.0f : 0.0f;
+#endif
 }
 
 static void draw_all(viewer_panel *p)
@@ -129,7 +154,6 @@ static void draw_all(viewer_panel *p)
                  {"Record", panel_draw_record, true},
                  {"Stage times", panel_draw_times, true},
                  {"Surface settings", panel_draw_settings, false}};
-    draw_told(p);
     for (const auto &part : parts) {
         const ImGuiTreeNodeFlags flags = part.is_open ? ImGuiTreeNodeFlags_DefaultOpen : 0;
         if (ImGui::CollapsingHeader(part.title, flags)) {
@@ -158,26 +182,35 @@ void viewer_panel_draw(viewer_panel *p)
     const int32_t own = viewer_panel_get_width(p);
     viewer_window_get_size(&p->v->window, &width, &height);
     if (own == 0) {
-        p->v->window.is_mouse_taken = p->v->window.is_key_taken = false;
+        p->v->window.is_list_open = p->v->window.is_key_taken = false;
         return;
     }
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     press_taps(p, true);
+    lead_list(p);
     ImGui::NewFrame();
     ImGui::SetNextWindowPos(ImVec2((float)(width - own), 0.0f));
     ImGui::SetNextWindowSize(ImVec2((float)own, (float)height));
     ImGui::Begin("panel", nullptr,
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings);
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoScrollbar |
+                     ImGuiWindowFlags_NoScrollWithMouse);
+    const float rest = MESSAGE_ROWS * ImGui::GetTextLineHeightWithSpacing();
+    /* Tab leads from one field to the next, but into the panel only the mouse leads. */
+    ImGui::BeginChild("controls", ImVec2(0.0f, -rest), false,
+                      p->v->window.is_key_taken ? 0 : ImGuiWindowFlags_NoNavInputs);
     ImGui::PushItemWidth(0.52f * (float)own);
     draw_all(p);
     ImGui::PopItemWidth();
+    ImGui::EndChild();
+    draw_messages(p);
     ImGui::End();
     ImGui::Render();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     press_taps(p, false);
-    p->v->window.is_mouse_taken = ImGui::GetIO().WantCaptureMouse;
-    p->v->window.is_key_taken = ImGui::GetIO().WantTextInput;
+    viewer_window *window = &p->v->window;
+    window->is_list_open = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+    window->is_key_taken = window->is_list_open || ImGui::IsAnyItemActive();
     fulfil(p);
 }

@@ -2,6 +2,8 @@
 #ifndef RELIEF_APP_VIEWER_PANEL_H
 #define RELIEF_APP_VIEWER_PANEL_H
 
+#include "base/part.h"
+
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -12,8 +14,11 @@ extern "C" {
 struct viewer;
 typedef struct viewer_panel viewer_panel;
 
+#define VIEWER_GET_PANEL RLF_GET_PART("libimgui-dev g++", "script/bootstrap", "RELIEF_WITH_IMGUI")
+
 /* Of the panel, at 100 % scale. */
 #define VIEWER_PANEL_WIDTH 340
+#define VIEWER_PANEL_HEIGHT 640 /* that a window begins with */
 
 /* Whether this build has one. */
 bool viewer_panel_is_built(void);

@@ -18,7 +18,7 @@ static void draw_legend(const viewer *v)
                                                   IM_COL32(row->r, row->g, row->b, 255));
         ImGui::Dummy(ImVec2(side, side));
         ImGui::SameLine();
-        ImGui::TextUnformatted(row->text);
+        ImGui::TextWrapped("%s", row->text);
     }
 }
 
@@ -123,5 +123,5 @@ void panel_draw_times(viewer_panel *p)
     ImGui::Text("physics %5.1f   render  %5.1f ms", t->physics_ms, t->render_ms);
     ImGui::Text("latency %5.1f   panel   %5.2f ms", v->latency_ms, v->panel_ms);
     ImGui::PlotLines("##sum", sums, v->plot_count, 0, "all stages, 0 to 66 ms", 0.0f, 66.7f,
-                     ImVec2(-1.0f, 48.0f * p->scale));
+                     ImVec2(ImGui::GetContentRegionAvail().x, 48.0f * p->scale));
 }

@@ -15,7 +15,8 @@
 #define WAIT_S 0.05
 #define HEAD 1 /* lines over the list */
 #define FOOT 1
-#define LINES_MAX (HEAD + VIEWER_CHOICES_MAX + FOOT)
+#define ROWS 22 /* of the list that are shown at a time */
+#define LINES_MAX (HEAD + ROWS + FOOT)
 #define LINE_SIZE 128
 /* The overlay's layout in a picture of this height: where its lines begin, and how far apart. */
 #define LINE_START 2.0
@@ -25,8 +26,8 @@ typedef struct start_page {
     viewer_list_fn list;
     void *context;
     viewer_choice choices[VIEWER_CHOICES_MAX];
-    int32_t count, selected;
-    int32_t chosen; /* -1 = none yet */
+    int32_t count, selected, first; /* first of those that are shown */
+    int32_t chosen;                 /* -1 = none yet */
     char lines[LINES_MAX][LINE_SIZE];
     viewer_window window;
     rlf_gl_presenter *presenter;
@@ -57,12 +58,23 @@ static void look_again(start_page *page)
     page->selected = page->selected < page->count ? page->selected : 0;
 }
 
+/* What is selected is shown. */
+static void scroll(start_page *page)
+{
+    const int32_t most = page->count > ROWS ? page->count - ROWS : 0;
+    page->first = page->selected < page->first ? page->selected : page->first;
+    page->first = page->selected >= page->first + ROWS ? page->selected - ROWS + 1 : page->first;
+    page->first = page->first < most ? page->first : most;
+}
+
 static rlf_result draw(start_page *page)
 {
+    scroll(page);
     const char *pointers[LINES_MAX];
     int32_t count = 0;
-    (void)snprintf(page->lines[count++], LINE_SIZE, "Relief: choose a camera or a recording");
-    for (int32_t i = 0; i < page->count; i++) {
+    (void)snprintf(page->lines[count++], LINE_SIZE,
+                   "Relief: choose a camera, a recording or a scene");
+    for (int32_t i = page->first; i < page->count && i < page->first + ROWS; i++) {
         char number[4] = " ";
         (void)snprintf(number, sizeof(number), "%d", (int)(i + 1) % 100);
         (void)snprintf(page->lines[count++], LINE_SIZE, "%s %s  %s",
@@ -70,7 +82,8 @@ static rlf_result draw(start_page *page)
                        page->choices[i].text);
     }
     (void)snprintf(page->lines[count++], LINE_SIZE,
-                   "arrows and Enter, number or click   R look again   Q quit");
+                   "arrows and Enter, number or click   R look again   Q quit%s",
+                   page->first + ROWS < page->count ? "   more below" : "");
     for (int32_t i = 0; i < count; i++) {
         pointers[i] = page->lines[i];
     }
@@ -105,7 +118,8 @@ static void click(start_page *page, double x, double y)
     viewer_window_get_size(&page->window, &width, &height);
     const viewer_fit fit = {width, height, WIDTH, HEIGHT};
     if (width > 0 && height > 0 && viewer_fit_pick(&fit, x, y, &u, &v) && v >= LINE_START) {
-        choose(page, (int32_t)((v - LINE_START) / LINE_PITCH) - HEAD);
+        const int32_t row = (int32_t)((v - LINE_START) / LINE_PITCH) - HEAD;
+        choose(page, row >= 0 && row < ROWS ? page->first + row : -1);
     }
 }
 
@@ -117,7 +131,11 @@ static bool fulfil_wishes(start_page *page)
     if (wishes.restart) {
         look_again(page);
     }
-    const int32_t selected = page->selected + wishes.nudge_y;
+    if (wishes.leave) {
+        viewer_window_leave(&page->window);
+    }
+    const int32_t step = wishes.nudge_y - (int32_t)wishes.zoom;
+    const int32_t selected = page->selected + step;
     page->selected = (int32_t)rlf_clamp(selected, 0, page->count - 1);
     choose(page, wishes.view);
     if (wishes.solve_points) {
@@ -126,7 +144,7 @@ static bool fulfil_wishes(start_page *page)
     if (wishes.throw_body) {
         click(page, wishes.throw_x, wishes.throw_y);
     }
-    return wishes.restart || wishes.refresh || wishes.nudge_y != 0;
+    return wishes.restart || wishes.refresh || step != 0;
 }
 
 static rlf_result run(start_page *page, const volatile sig_atomic_t *interrupted)
@@ -156,7 +174,8 @@ rlf_result viewer_choose(viewer_list_fn list, void *context,
     page.list = list;
     page.context = context;
     page.chosen = -1;
-    rlf_result result = viewer_window_open("Relief", 2 * WIDTH, 2 * HEIGHT, &page.window);
+    const viewer_window_size size = {.width = 2 * WIDTH, .height = 2 * HEIGHT};
+    rlf_result result = viewer_window_open("Relief", &size, &page.window);
     if (result != RLF_OK) {
         return result;
     }

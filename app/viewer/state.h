@@ -13,9 +13,19 @@
 #define VIEWER_NS_PER_S 1000000000.0
 #define VIEWER_LINES_MAX 32 /* of text over the picture */
 #define VIEWER_LINE_SIZE 128
-#define VIEWER_MESSAGE_SIZE 288
+#define VIEWER_MESSAGE_SIZE 512
+#define VIEWER_MESSAGES_MAX 8  /* that the panel lists */
+#define VIEWER_MESSAGE_LINES 8 /* room of messages over the picture */
 #define VIEWER_PLOT_FRAMES 120
 #define VIEWER_PLOT_STAGES 4
+
+typedef enum viewer_mark { VIEWER_MARK_NONE, VIEWER_MARK_RECORDING, VIEWER_MARK_ERROR } viewer_mark;
+
+typedef struct viewer_message {
+    char text[VIEWER_MESSAGE_SIZE];
+    int64_t end_ns; /* of its time over the picture; 0 = that is over */
+    bool is_error;
+} viewer_message;
 
 typedef struct viewer {
     viewer_stage stage;
@@ -47,13 +57,12 @@ typedef struct viewer {
     int32_t silent_s;    /* whole seconds without a frame; 0 = they come */
     viewer_panel *panel; /* NULL = none */
     bool shows_panel;
-    int32_t panel_width;            /* in the unit of mouse positions; 0 = it is not shown */
-    char told[VIEWER_MESSAGE_SIZE]; /* an error that the panel shows until it was seen */
-    int32_t extra_presents;         /* the panel shows what it was told one picture later */
-    double panel_ms;                /* cost of the last picture's */
-    char message[VIEWER_MESSAGE_SIZE];
-    int64_t message_end_ns;
+    int32_t extra_presents; /* the panel shows what it was told one picture later */
+    double panel_ms;        /* cost of the last picture's */
+    viewer_message messages[VIEWER_MESSAGES_MAX]; /* the newest first */
+    int32_t message_count;
     char lines[VIEWER_LINES_MAX][VIEWER_LINE_SIZE];
+    viewer_mark line_marks[VIEWER_LINES_MAX]; /* before their text */
     int32_t line_count;
     rlf_image_rgba8 text, marks; /* over the picture; grow with the window */
     size_t text_size, marks_size;
@@ -65,11 +74,14 @@ static inline rlf_pose viewer_camera(const viewer *v)
     return v->has_frame ? v->frame.T_world_camera : v->options->T_world_camera;
 }
 
-/* Puts a line over the picture for three seconds. */
+/* message.c: puts a message over the picture for as long as it takes to read, and in the panel. */
 void viewer_show_message(viewer *v, const char *text);
-
-/* Takes the line away when its time is over. */
-void viewer_forget_old_message(viewer *v, int64_t now_ns);
+/* Of something that failed: in full screen, too. */
+void viewer_show_error(viewer *v, const char *text);
+/* `text`, or the library's error line. */
+void viewer_show_result(viewer *v, rlf_result result, const char *text);
+/* Ends those over the picture whose time is over. */
+void viewer_end_old_messages(viewer *v, int64_t now_ns);
 
 /* area.c: the window's part for the picture, in the unit of mouse positions. */
 void viewer_get_area(const viewer *v, int32_t *out_width, int32_t *out_height);
@@ -83,6 +95,11 @@ void viewer_draw_marks(viewer *v, int32_t width, int32_t height, int32_t scale);
 /* Place on the seek bar, 0 to 1, of a window position; false beside it. `is_held`: the mouse began
  * there, and may be anywhere now. */
 bool viewer_seek_pick(const viewer *v, double x, double y, bool is_held, double *out);
+
+/* lines.c: what stays, then what is new; messages last, at most VIEWER_MESSAGE_LINES of so many
+ * letters. */
+void viewer_make_lines(viewer *v);
+void viewer_add_messages(viewer *v, int32_t columns);
 
 /* overlay.c: lines of text and marks, at the window's resolution, over what was drawn. */
 void viewer_draw_overlay(viewer *v, int32_t width, int32_t height);

@@ -126,15 +126,15 @@ static rlf_result redraw(viewer *v)
 static void measure_panel(viewer *v)
 {
     const bool is_wanted = v->shows_panel && !viewer_screen_is_full(&v->window);
-    v->panel_width = is_wanted ? viewer_panel_get_width(v->panel) : 0;
+    v->window.panel_width = is_wanted ? viewer_panel_get_width(v->panel) : 0;
 }
 
 static void draw_panel(viewer *v)
 {
-    const bool is_shown = v->panel_width > 0;
+    const bool is_shown = v->window.panel_width > 0;
     v->window.follows_mouse = is_shown;
     if (!is_shown) {
-        v->window.is_mouse_taken = v->window.is_key_taken = false;
+        v->window.is_list_open = v->window.is_key_taken = false;
         return;
     }
     const int64_t before = rlf_clock_ns();
@@ -197,7 +197,7 @@ static rlf_result run_loop(viewer *v)
         viewer_fulfil_wishes(v);
         measure_panel(v);
         int64_t now = rlf_clock_ns();
-        viewer_forget_old_message(v, now);
+        viewer_end_old_messages(v, now);
         is_playing = !v->is_paused && !v->is_at_end;
         if (v->is_step_due || (is_playing && now >= v->due_ns)) {
             result = step(v);
@@ -215,17 +215,21 @@ static rlf_result run_loop(viewer *v)
 }
 
 /* The picture's size, and room for the panel. */
-static void first_size(const viewer *v, int32_t *out_width, int32_t *out_height)
+static viewer_window_size first_size(const viewer *v)
 {
     rlf_compositor_def def = rlf_pipeline_get_compositor_def(v->stage.pipeline);
     const rlf_camera *camera = def.rig.has_color ? &def.rig.color : &def.rig.depth;
-    *out_width = def.width > 0 ? def.width : camera->width;
-    *out_height = def.height > 0 ? def.height : camera->height;
-    while (*out_width < WINDOW_WIDTH_MIN) {
-        *out_width *= 2;
-        *out_height *= 2;
+    viewer_window_size size = {.width = def.width > 0 ? def.width : camera->width,
+                               .height = def.height > 0 ? def.height : camera->height};
+    while (size.width < WINDOW_WIDTH_MIN) {
+        size.width *= 2;
+        size.height *= 2;
     }
-    *out_width += v->shows_panel && viewer_panel_is_built() ? VIEWER_PANEL_WIDTH : 0;
+    if (v->shows_panel && viewer_panel_is_built()) {
+        size.panel_width = VIEWER_PANEL_WIDTH;
+        size.panel_height = VIEWER_PANEL_HEIGHT;
+    }
+    return size;
 }
 
 static void begin(viewer *v, rlf_pipeline *pipeline, const viewer_options *options)
@@ -272,10 +276,9 @@ static rlf_result run_in_window(viewer *v)
 rlf_result viewer_run(rlf_pipeline *pipeline, const viewer_options *options)
 {
     static viewer v; /* large: all lines */
-    int32_t width, height;
     begin(&v, pipeline, options);
-    first_size(&v, &width, &height);
-    rlf_result result = viewer_window_open(options->title, width, height, &v.window);
+    const viewer_window_size size = first_size(&v);
+    rlf_result result = viewer_window_open(options->title, &size, &v.window);
     if (result == RLF_OK) {
         result = run_in_window(&v);
         rlf_gl_presenter_destroy(&v.presenter);

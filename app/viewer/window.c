@@ -34,25 +34,38 @@ static void hint_es(void)
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 0);
 }
 
-/* The picture's size, or the largest of its proportions that leaves the desktop some room. */
-static void fit_to_desktop(int32_t *width, int32_t *height)
+/* The picture's size, or the largest of its proportions that leaves the desktop some room; the
+ * panel has its own size beside it, enlarged as text is on this desktop. */
+static void fit_to_desktop(const viewer_window_size *wanted, int32_t *out_width,
+                           int32_t *out_height)
 {
     GLFWmonitor *monitor = glfwGetPrimaryMonitor();
     const GLFWvidmode *mode = monitor != NULL ? glfwGetVideoMode(monitor) : NULL;
+    float text_scale = 1.0f;
+    float text_scale_y = 1.0f;
+    *out_width = wanted->width + wanted->panel_width;
+    *out_height = wanted->height > wanted->panel_height ? wanted->height : wanted->panel_height;
     if (mode == NULL) {
         return;
     }
-    double scale_x = 0.9 * mode->width / *width;
-    double scale_y = 0.85 * mode->height / *height;
-    double scale = scale_x < scale_y ? scale_x : scale_y;
-    if (scale < 1.0) {
-        *width = (int32_t)(*width * scale) + 1;
-        *height = (int32_t)(*height * scale) + 1;
-    }
+    glfwGetMonitorContentScale(monitor, &text_scale, &text_scale_y);
+    const double panel_width = wanted->panel_width * (double)text_scale;
+    const double panel_height = wanted->panel_height * (double)text_scale;
+    const double width_max = 0.9 * mode->width - panel_width;
+    const double height_max = 0.85 * mode->height;
+    double scale = width_max / wanted->width;
+    scale = height_max < scale * wanted->height ? height_max / wanted->height : scale;
+    scale = scale < 1.0 ? scale : 1.0;
+    double height = scale * wanted->height > panel_height ? scale * wanted->height : panel_height;
+    height = height < height_max ? height : height_max;
+    *out_width = (int32_t)(scale * wanted->width + panel_width + 0.5);
+    *out_height = (int32_t)(height + 0.5);
 }
 
-rlf_result viewer_window_open(const char *title, int32_t width, int32_t height, viewer_window *out)
+rlf_result viewer_window_open(const char *title, const viewer_window_size *size, viewer_window *out)
 {
+    int32_t width;
+    int32_t height;
     *out = (viewer_window){0};
     out->wishes.view = -1;
     glfw_message[0] = '\0';
@@ -62,7 +75,7 @@ rlf_result viewer_window_open(const char *title, int32_t width, int32_t height, 
                         "window: no display to open one on: %s: set DISPLAY or add --headless",
                         glfw_message);
     }
-    fit_to_desktop(&width, &height);
+    fit_to_desktop(size, &width, &height);
     hint_core();
     out->handle = glfwCreateWindow(width, height, title, NULL, NULL);
     if (out->handle == NULL) {
@@ -110,6 +123,15 @@ bool viewer_window_is_software_gl(const viewer_window *window)
 bool viewer_window_should_close(const viewer_window *window)
 {
     return glfwWindowShouldClose(window->handle) == GLFW_TRUE;
+}
+
+void viewer_window_leave(viewer_window *window)
+{
+    if (viewer_screen_is_full(window)) {
+        viewer_screen_toggle(window);
+    } else {
+        glfwSetWindowShouldClose(window->handle, GLFW_TRUE);
+    }
 }
 
 void viewer_window_poll(viewer_window *window, double timeout_s)

@@ -19,6 +19,7 @@ typedef struct viewer_wishes {
     double press_x, press_y; /* where, window position */
     bool delete_body;        /* the one under the mouse */
     bool toggle_overlay, toggle_mirror, toggle_panel, next_end, next_shape;
+    bool leave;          /* what is over the window's usual state; else the program */
     bool is_screen_lost; /* the monitor of the full screen was unplugged */
     bool has_drop;
     char drop[VIEWER_PATH_SIZE]; /* a file or folder dropped on the window */
@@ -45,21 +46,32 @@ typedef struct viewer_window {
     int32_t windowed[4];       /* x, y, width, height before full screen */
     int32_t screen_number;     /* of the monitor for full screen, from 1; 0 = the primary one */
     GLFWmonitor *screen;       /* that the full screen is on; NULL = none */
-    bool is_mouse_taken, is_key_taken; /* by the panel */
-    int taps[VIEWER_TAPS_MAX];         /* keys that went down since the panel was drawn */
+    int32_t panel_width; /* at the right, in the unit of mouse positions; 0 = it is not shown */
+    bool is_list_open;   /* in the panel: the mouse is its alone, wherever it is */
+    bool is_key_taken;   /* a control of the panel has the focus */
+    int taps[VIEWER_TAPS_MAX]; /* keys that went down since the panel was drawn */
     int32_t tap_count;
     bool follows_mouse; /* what is shown changes with the mouse: the panel is open */
 } viewer_window;
 
+/* At 100 % scale. */
+typedef struct viewer_window_size {
+    int32_t width, height;             /* of the picture */
+    int32_t panel_width, panel_height; /* beside it; 0 = none */
+} viewer_window_size;
+
 /* Opens a window and makes its context current: OpenGL 3.3, else ES 3.0. `out` must stay where it
  * is until closed. One window per program. RLF_ERROR_DEVICE says why there is none. */
-rlf_result viewer_window_open(const char *title, int32_t width, int32_t height, viewer_window *out);
+rlf_result viewer_window_open(const char *title, const viewer_window_size *size,
+                              viewer_window *out);
 void viewer_window_close(viewer_window *window);
 
 /* True when the context is drawn by a program on the CPU (Mesa's llvmpipe or softpipe). */
 bool viewer_window_is_software_gl(const viewer_window *window);
 /* True when the user wants to end. */
 bool viewer_window_should_close(const viewer_window *window);
+/* Leaves full screen; in a window it asks to end. */
+void viewer_window_leave(viewer_window *window);
 /* Takes events, waiting for one at most this long; 0 does not wait. */
 void viewer_window_poll(viewer_window *window, double timeout_s);
 /* Pixels of the default framebuffer; 0 while minimised. */

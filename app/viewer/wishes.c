@@ -26,11 +26,11 @@ static void save_scene(viewer *v)
     int32_t count;
     const rlf_known_def *known = rlf_pipeline_get_known(v->stage.pipeline, &count);
     if (v->options->on_scene == NULL) {
-        viewer_show_message(v, "no scene file to save: start with --scene");
+        viewer_show_error(v, "no scene file to save: start with --scene");
         return;
     }
     rlf_result result = v->options->on_scene(v->options->context, known, count, text, sizeof text);
-    viewer_show_message(v, result == RLF_OK ? text : rlf_error_text());
+    viewer_show_result(v, result, text);
 }
 
 /* Moves a model by a centimetre and a degree, or a tenth of that. */
@@ -48,6 +48,15 @@ static void nudge(viewer *v, const viewer_wishes *wishes)
     v->is_redraw_due = true;
 }
 
+static void toggle_place(viewer *v)
+{
+    char text[VIEWER_PLACE_TEXT];
+    if (viewer_place_toggle(&v->place, v->stage.pipeline, text)) {
+        viewer_set_view(v, v->place.is_on ? RLF_VIEW_KNOWN : RLF_VIEW_CAMERA);
+    }
+    viewer_show_message(v, text);
+}
+
 static void fulfil_place_wishes(viewer *v, const viewer_wishes *wishes)
 {
     const struct {
@@ -59,10 +68,7 @@ static void fulfil_place_wishes(viewer *v, const viewer_wishes *wishes)
                  {wishes->solve_points, VIEWER_PLACE_SOLVE}};
     char text[VIEWER_PLACE_TEXT];
     if (wishes->toggle_place) {
-        if (viewer_place_toggle(&v->place, v->stage.pipeline, text)) {
-            viewer_set_view(v, v->place.is_on ? RLF_VIEW_KNOWN : RLF_VIEW_CAMERA);
-        }
-        viewer_show_message(v, text);
+        toggle_place(v);
     }
     for (int i = 0; i < 4 && v->place.is_on; i++) {
         if (acts[i].is_due) {
@@ -106,6 +112,16 @@ static void toggle_overlay(viewer *v)
     *shown = !*shown;
 }
 
+/* Escape leaves one thing at a time: placing, full screen, the program. */
+static void leave(viewer *v)
+{
+    if (v->place.is_on) {
+        toggle_place(v);
+    } else {
+        viewer_window_leave(&v->window);
+    }
+}
+
 static void fulfil_switches(viewer *v, const viewer_wishes *wishes)
 {
     if (wishes->toggle_overlay) {
@@ -115,13 +131,18 @@ static void fulfil_switches(viewer *v, const viewer_wishes *wishes)
     v->shows_panel = v->shows_panel != wishes->toggle_panel;
     v->shows_help = v->shows_help != wishes->toggle_help;
     if (wishes->toggle_panel && v->panel == NULL) {
-        viewer_show_message(v, "no panel here: it needs a build with Dear ImGui, and OpenGL 3.3");
+        viewer_show_error(v, viewer_panel_is_built()
+                                 ? "no panel here: it needs OpenGL 3.3, and this display has ES"
+                                 : "this build has no panel: " VIEWER_GET_PANEL);
     }
     if (wishes->next_end && v->stage.playback != NULL) {
         viewer_set_end(v, (playback_end)((int)(playback_get_end(v->stage.playback) + 1) % 3));
     }
     if (wishes->next_shape) {
         next_shape(v);
+    }
+    if (wishes->leave) {
+        leave(v);
     }
     if (wishes->is_screen_lost) {
         viewer_show_message(v, "the monitor is gone: the window is here again");

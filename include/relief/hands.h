@@ -156,6 +156,10 @@ typedef struct rlf_hand_tracker rlf_hand_tracker;
 RLF_API rlf_result rlf_hand_tracker_create(const rlf_hand_tracker_def *def, rlf_hand_tracker **out);
 /* Frees it and nulls the pointer. NULL and a NULL tracker are allowed. */
 RLF_API void rlf_hand_tracker_destroy(rlf_hand_tracker **tracker);
+/* Tells where down is, in the camera's frame, from the next update on: any length; 0 = not known.
+ * What stands on the floor under a body is a foot and no hand; without `down` that is not told.
+ * Created for a level camera: (0, 1, 0). */
+RLF_API void rlf_hand_tracker_set_down(rlf_hand_tracker *tracker, rlf_vec3 down);
 /* The hands of this surface, which must have the def's size; borrowed for the call. Allocates
  * nothing. Same surfaces in the same order give the same bits. What it returns is the tracker's and
  * valid until the next call; NULL only for a broken contract. A surface of a moving camera, whose

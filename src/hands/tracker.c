@@ -1,6 +1,7 @@
 /* The stage: from a surface to its hands. */
 #include "base/cookie.h"
 #include "hands/follow.h"
+#include "hands/foot.h"
 #include "hands/side.h"
 
 #include <string.h>
@@ -11,6 +12,7 @@
 
 struct rlf_hand_tracker {
     rlf_hand_tracker_def def;
+    rlf_vec3 down; /* unit, or 0 */
     hand_cells cells;
     hand_limbs limbs;
     hand_patch *patch;
@@ -91,6 +93,7 @@ rlf_result rlf_hand_tracker_create(const rlf_hand_tracker_def *def, rlf_hand_tra
         return RLF_ERROR_MEMORY;
     }
     t->def = *def;
+    t->down = rlf_vec3_make(0.0, 1.0, 0.0);
     if (!allocate(t)) {
         rlf_hand_tracker_destroy(&t);
         return RLF_ERROR_MEMORY;
@@ -132,6 +135,14 @@ void rlf_hand_tracker_reset(rlf_hand_tracker *t)
     t->out.event_count = 0;
 }
 
+void rlf_hand_tracker_set_down(rlf_hand_tracker *t, rlf_vec3 down)
+{
+    if (RLF_ASSERT(t != NULL && rlf_vec3_is_finite(down))) {
+        const double length = rlf_length(down);
+        t->down = length > 0.0 ? rlf_scale(down, 1.0 / length) : down;
+    }
+}
+
 /* Marks the hand's pixels of the surface with 1 + the index of its limb. */
 static void own(rlf_hand_tracker *t, const hand_palm *palm, int32_t limb)
 {
@@ -167,6 +178,9 @@ static int32_t see_all(rlf_hand_tracker *t, const rlf_surface *surface)
         hand_gesture_see(seen, t->patch, &palm, &fingers);
         seen->limb = k;
         seen->hand.confidence = hand_confidence(&t->limbs.limb[k], &palm, &fingers);
+        if (seen->hand.confidence >= CONFIDENCE_LEAST) {
+            seen->hand.confidence *= 1.0 - hand_foot_likeness(&t->cells, palm.centre, t->down);
+        }
         if (seen->hand.confidence >= CONFIDENCE_LEAST) {
             own(t, &palm, k);
             count++;

@@ -4,6 +4,7 @@
 #include "pipeline/state.h"
 #include "relief/query.h"
 
+#define UP_FRAMES 10 /* the first one's noise may hide what the next ones show */
 #define THROW_M_S 3.0
 #define NEAR_M 0.25        /* a body so close to an event is meant by it */
 #define HAND_M 0.2         /* a palm is no farther from what its fingers hold */
@@ -38,10 +39,33 @@ void hand_stage_restart(hand_stage *stage)
         rlf_hand_tracker_reset(stage->tracker);
     }
     stage->last = NULL;
+    stage->up_world = rlf_vec3_make(0.0, -1.0, 0.0);
+    stage->up_confidence = 0.0;
+    stage->frames_asked = 0;
 }
 
-void hand_stage_update(hand_stage *stage, const rlf_surface *surface)
+/* The room says where down is. Gravity does not: whoever plays may turn it round. */
+static void find_down(hand_stage *stage, const rlf_surface *surface, const rlf_pose *T_world_camera)
 {
+    rlf_vec3 up;
+    if (stage->up_confidence < RLF_UP_SURE && stage->frames_asked < UP_FRAMES) {
+        stage->frames_asked++;
+        stage->up_confidence = rlf_surface_find_up(surface, &up);
+        if (stage->up_confidence >= RLF_UP_SURE) {
+            stage->up_world = rlf_rotate(T_world_camera->q, up);
+        }
+    }
+    const rlf_vec3 down = rlf_neg(stage->up_world);
+    rlf_hand_tracker_set_down(stage->tracker,
+                              rlf_rotate(rlf_quat_conjugate(T_world_camera->q), down));
+}
+
+void hand_stage_update(hand_stage *stage, const rlf_surface *surface,
+                       const rlf_pose *T_world_camera)
+{
+    if (stage->is_on) {
+        find_down(stage, surface, T_world_camera);
+    }
     const rlf_hands *found = stage->is_on ? rlf_hand_tracker_update(stage->tracker, surface) : NULL;
     if (found != NULL) {
         stage->now = *found;

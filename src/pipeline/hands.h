@@ -11,6 +11,9 @@
 typedef struct hand_stage {
     rlf_hand_tracker *tracker; /* made when first wanted */
     bool is_on;
+    rlf_vec3 up_world;    /* unit: as the room's floors and walls say, as sure as this; */
+    double up_confidence; /* below RLF_UP_SURE it is the world's own, -y */
+    int32_t frames_asked; /* for it */
     rlf_hands now;
     const rlf_hands *last; /* `now`; NULL = none yet, or off */
     rlf_mark marks[RLF_HANDS_MAX * HAND_MARKS_EACH];
@@ -23,7 +26,8 @@ void hand_stage_destroy(hand_stage *stage);
 /* All is forgotten, as after the first hand_stage_set. */
 void hand_stage_restart(hand_stage *stage);
 /* Finds the hands of a surface, if they are wanted. */
-void hand_stage_update(hand_stage *stage, const rlf_surface *surface);
+void hand_stage_update(hand_stage *stage, const rlf_surface *surface,
+                       const rlf_pose *T_world_camera);
 /* Tells which hand holds which of the bodies that are grabbed: the nearest one. */
 void hand_stage_hold(hand_stage *stage, const rlf_snapshot *snapshot,
                      const rlf_pose *T_world_camera);

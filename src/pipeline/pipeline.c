@@ -168,7 +168,7 @@ static rlf_result advance_world(rlf_pipeline *p)
 static void find_hands(rlf_pipeline *p)
 {
     int64_t clock = rlf_clock_ns();
-    hand_stage_update(&p->hands, p->last.surface);
+    hand_stage_update(&p->hands, p->last.surface, &p->camera.T_world);
     p->last.hands = p->hands.last;
     p->last.times.hands_ms = p->hands.is_on ? elapsed_ms(&clock) : 0.0;
 }

@@ -44,6 +44,14 @@ expect_done --version
 cp stdout.txt version.txt
 expect_done -V
 cmp -s stdout.txt version.txt || fail "-V is not --version: $(cat stdout.txt)"
+grep -q "^with: .*" stdout.txt || fail "--version does not tell what is built in: $(cat stdout.txt)"
+grep "^without " stdout.txt | grep -v "then .cmake --preset release -DRELIEF_WITH_.*=ON. and build again" &&
+    fail "--version does not tell how to get a part"
+# Without a display: the usage. With one the start page comes up, which the window's tests open.
+env -u DISPLAY -u WAYLAND_DISPLAY "$relief" >stdout.txt 2>stderr.txt
+status=$?
+[ "$status" -eq 2 ] && [ ! -s stdout.txt ] && grep -q "^usage: relief COMMAND" stderr.txt ||
+    fail "relief alone: status $status, $(cat stdout.txt stderr.txt)"
 for command in run record place export info sources scenes settings calibrate eval measure bench; do
     expect_done "$command" --help
     cp stdout.txt help.txt

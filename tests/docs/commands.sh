@@ -52,5 +52,12 @@ for block in "$work"/blocks/*; do
     fi
     run=$((run + 1))
 done
+# What the pages promise to be in a file is there.
+for csv in out/hands/hands.csv out/grab/hands.csv; do
+    if [ "$(wc -l <"$work/here/$csv")" -lt 2 ]; then
+        echo "commands: docs/hands.md: $csv has no hand" >&2
+        exit 1
+    fi
+done
 echo "commands: $run blocks run, $skipped left out with a reason"
 [ "$run" -gt 0 ]

@@ -7,7 +7,7 @@ pkg_check_modules(glfw3 REQUIRED IMPORTED_TARGET glfw3)
 pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
 set(app ${PROJECT_SOURCE_DIR}/app)
 set(viewer ${app}/playback.c)
-foreach(part act area grab input marks mouse open overlay panel_none place screen start throw viewer window
+foreach(part act area grab input lines marks message mouse open overlay panel_none place screen start throw viewer window
              wishes)
   list(APPEND viewer ${app}/viewer/${part}.c)
 endforeach()
@@ -23,7 +23,7 @@ foreach(name viewer_test viewer_live_test viewer_play_test)
   relief_settings(${name})
   # setenv is POSIX.
   target_compile_definitions(${name} PRIVATE _POSIX_C_SOURCE=200809L)
-  target_include_directories(${name} PRIVATE ${app})
+  target_include_directories(${name} PRIVATE ${app} ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(${name} PRIVATE relief_gl relief PkgConfig::glfw3 PkgConfig::epoxy
                         PkgConfig::cmocka m)
   add_test(NAME gl.${what} COMMAND ${launcher} $<TARGET_FILE:${name}>)

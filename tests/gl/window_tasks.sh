@@ -55,6 +55,10 @@ until_true() {
 letters='rgb(245,245,235)' # of text over the picture; the room has nothing like it
 picture=960x540+0+0        # of the window, whose corner is that of the screen
 
+red='rgb(240,60,50)' # of the dot of a recording and the bar of an error, at the left
+recordings() { find . -maxdepth 1 -name 'relief-*.mcap' -o -maxdepth 1 -name 'relief-2*' -type d | wc -l; }
+is_recording() { shot look && [ "$(count look.ppm 20x300+0+0 "$red")" -gt 20 ]; }
+is_not_recording() { ! is_recording; }
 has_window() { xdotool search --name '^Relief$' >/dev/null 2>&1; }
 has_text() { shot look && [ "$(count look.ppm 600x100+0+0 "$letters")" -gt 500 ]; }
 has_no_text() { shot look && [ "$(count look.ppm 600x100+0+0 "$letters")" -eq 0 ]; }
@@ -72,8 +76,9 @@ start() {
     until_true "no window: $(cat run.log)" has_window
 }
 
+# quit KEY: ends by it, with status 0.
 quit() {
-    xdotool key q
+    xdotool key "$1"
     status=0
     wait "$pid" || status=$?
     pid=
@@ -119,19 +124,27 @@ if [ "$has_panel" = yes ]; then
     echo "5 gravity is turned round in the panel"
 fi
 
-# 6. A recording.
-xdotool key e
-sleep 1
-xdotool key e
-until_true "E records nothing" sh -c 'ls *.mcap >/dev/null 2>&1 || ls -d relief-*/ >/dev/null 2>&1'
-echo "6 what the camera gives is recorded"
-
-# 7. Full screen, the picture alone.
+# 6. A recording: told while it lasts, whatever is hidden.
+xdotool key i sleep 0.3 key e
+until_true "a recording with the text hidden is not told" is_recording
 xdotool key f
 until_true "full screen is not full" is_bright 1200x500+140+200
-until_true "full screen has text" has_no_text
-xdotool key f
-until_true "F does not come back" has_text
+until_true "a recording is not told in full screen" is_recording
+xdotool key e
+until_true "the recording does not end" is_not_recording
+xdotool key f sleep 0.5 key i
+until_true "I brings no text back" has_text
+[ "$(recordings)" -eq 1 ] || fail "E made $(recordings) recordings, not 1"
+echo "6 what the camera gives is recorded, and that is told"
+
+# 7. Full screen, the picture alone. F and Escape leave it.
+for key in f Escape; do
+    xdotool key f
+    until_true "full screen is not full" is_bright 1200x500+140+200
+    until_true "full screen has text" has_no_text
+    xdotool key $key
+    until_true "$key does not come back from full screen" has_text
+done
 echo "7 full screen has the picture alone"
 
 # 8. Why pixels are missing: the view and its legend.
@@ -146,17 +159,51 @@ if [ "$has_panel" = yes ]; then
     echo '{"bodies": [{"shape": "cube"}]}' >bad.json
     xdotool mousemove 1050 110 click 1 sleep 0.3 type "$work/bad.json"
     sleep 0.3
+    shot before
     xdotool key Return
-    sleep 1
-    shot bad
+    told() { convert "$1" -crop 330x120+970+520 +repage -alpha off -fuzz 20% -fill black +opaque 'rgb(255,128,102)' \
+        -format '%[fx:int(mean*w*h+0.5)]' info:; }
+    is_told() { shot bad && [ "$(told bad.ppm)" -gt 50 ]; }
+    until_true "the panel does not tell the scene's error" is_told
     until_true "the room stopped at a bad scene" is_moving
-    red=$(convert bad.ppm -crop 330x60+970+0 +repage -alpha off -fuzz 20% -fill black +opaque 'rgb(255,128,102)' \
-        -format '%[fx:int(mean*w*h+0.5)]' info:)
-    [ "$red" -gt 50 ] || fail "the panel does not tell the scene's error"
+    part() { convert "$1" -crop 180x16+1144+"$2" +repage -alpha off txt:- | tail -n +2; }
+    for y in 194 363 431; do # the titles of the parts
+        [ "$(part before.ppm $y)" = "$(part bad.ppm $y)" ] || fail "an error moves the controls"
+    done
+    one=$(told bad.ppm)
+    sleep 9 # longer than over the picture
+    is_told || fail "the panel forgets an error"
+    xdotool mousemove 1050 294 click 1 sleep 0.3 type missing.obj
+    xdotool sleep 0.3 key Return
+    are_told() { shot bad && [ "$(told bad.ppm)" -gt $((one + 50)) ]; }
+    until_true "the panel tells one error, not two" are_told
     xdotool mousemove 500 300
     echo "9 a scene with an error is told, the old one goes on"
+
+    # Keys are the panel's where one of its controls has the focus: an open list, a field, a slider.
+    xdotool mousemove 1050 225 sleep 0.3 click 1 sleep 0.5 type eqf
+    xdotool sleep 0.3 key Escape sleep 0.5
+    xdotool mousemove 1050 110 sleep 0.3 click 1 sleep 0.3 type eqf
+    xdotool sleep 0.3 key Escape sleep 0.5
+    xdotool mousemove 1050 393 sleep 0.3 mousedown 1 sleep 0.3 key e sleep 0.3 mouseup 1
+    xdotool sleep 0.3 keydown ctrl click 1 keyup ctrl sleep 0.3 key e sleep 0.3 key Escape sleep 0.5
+    xdotool mousemove 500 300
+    kill -0 "$pid" 2>/dev/null || fail "keys in the panel ended the program"
+    sleep 1
+    [ "$(recordings)" -eq 1 ] || fail "a key in the panel records"
+    # An open list is led by arrows and Enter: from ball to the next shape.
+    xdotool mousemove 1050 225 sleep 0.3 click 1 sleep 0.5 key Down sleep 0.2 key Down sleep 0.2
+    shot open
+    xdotool key Return
+    list() { convert "$1" -crop 170x70+970+238 +repage txt:-; }
+    is_closed() { shot closed && [ "$(list open.ppm)" != "$(list closed.ppm)" ]; }
+    until_true "Enter leaves a list open" is_closed
+    xdotool mousemove 500 300 sleep 0.3 key Tab sleep 0.3 key e # no field takes the E
+    until_true "E beside the panel records nothing" is_recording
+    xdotool key e
+    echo "- keys in the panel are the panel's"
 fi
-quit
+quit Escape
 
 bodies=$(awk -F, 'NR > 1 { names[$3] = 1 } END { n = 0; for (b in names) n++; print n }' log/bodies.csv)
 [ "$bodies" -ge 3 ] || fail "$bodies bodies in the log: no ball was thrown"
@@ -174,6 +221,31 @@ start own $fast
 until_true "the clip is not there" has_text
 sleep 2
 until_true "the clip stops at its end" is_moving
-quit
+quit q
 [ -s state/relief/recent ] || fail "the clip is not among the recent ones"
 echo "10 a clip of one's own plays and loops"
+
+# The command alone shows the start page; the clip above is its second choice, a scene is below.
+has_list() { # its letters are enlarged, over a grey ceiling
+    shot look && [ "$(convert look.ppm -crop 440x16+8+8 +repage -threshold 75% \
+        -format '%[fx:int(mean*w*h+0.5)]' info:)" -gt 500 ]
+}
+"$relief" >run.log 2>&1 &
+pid=$!
+until_true "no start page: $(cat run.log)" has_window
+until_true "the start page has no list" has_list
+xdotool key Escape
+status=0
+wait "$pid" || status=$?
+pid=
+[ "$status" -eq 0 ] || fail "Escape on the start page: status $status: $(cat run.log)"
+"$relief" >run.log 2>&1 &
+pid=$!
+until_true "no start page: $(cat run.log)" has_window
+until_true "the start page has no list" has_list
+xdotool key 2
+until_true "the start page opens no clip" has_text
+until_true "the clip of the start page does not play" is_moving
+quit q
+grep -q "frames, in a window" run.log || fail "the start page runs nothing: $(cat run.log)"
+echo "- the command alone shows the start page"

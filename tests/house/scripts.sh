@@ -28,6 +28,7 @@ for name in bootstrap bench peers report format silhouettes thresholds sentences
 done
 "$root/script/bootstrap" --list | grep -qx cmake
 "$root/script/bootstrap" --list | grep -qx libglfw3-dev
+"$root/script/bootstrap" --list | grep -qx libimgui-dev # the panel is in the default window
 "$root/script/bootstrap" --small --list | grep -qx libpng-dev
 if "$root/script/bootstrap" --small --list | grep -q 'gl\|av\|assimp\|cmocka\|++'; then
     echo "scripts: bootstrap --small installs what a window, MP4, models or tests need" >&2

@@ -232,6 +232,56 @@ static void test_people(void **state)
     bench_destroy(&b);
 }
 
+/* As one who stands with the thighs together: the body ends at the knees, and shins and feet look
+ * like forearms and hands. */
+static void draw_upright(hand_scene *s, double z, scene_hand *hands)
+{
+    draw_person(s, 0.0, z, hands);
+    scene_rod(s, rlf_vec3_make(0.0, 0.15, z), rlf_vec3_make(0.0, 0.62, z), 0.2, 0.15);
+    for (int side = -1; side <= 1; side += 2) {
+        const double x = side * 0.11;
+        scene_rod(s, rlf_vec3_make(x, 0.6, z), rlf_vec3_make(x, 1.0, z), 0.045, 0.03);
+        scene_ball(s, rlf_vec3_make(x, 1.05, z), 0.042);
+    }
+}
+
+static int count_low(const rlf_hands *out, double least_y)
+{
+    int count = 0;
+    for (int i = 0; i < out->count; i++) {
+        count += out->hand[i].confidence >= RLF_HAND_SURE && out->hand[i].palm.y > least_y;
+    }
+    return count;
+}
+
+/* Who stands has two hands and no more. Where down is not known, a foot is taken for one. */
+static void test_feet(void **state)
+{
+    (void)state;
+    const rlf_vec3 downs[2] = {{0, 2.5, 0}, {0, 0, 0}};
+    for (int n = 0; n < 2; n++) {
+        bench b = bench_create();
+        scene_hand hands[2];
+        const rlf_hands *out = NULL;
+        rlf_hand_tracker_set_down(b.tracker, downs[n]);
+        for (int k = 0; k < 12; k++) {
+            b.time_ns += FRAME_NS;
+            scene_clear(b.scene, 4.0, b.time_ns);
+            draw_upright(b.scene, 2.4, hands);
+            scene_noise(b.scene);
+            out = rlf_hand_tracker_update(b.tracker, &b.scene->surface);
+            check_finite(out);
+        }
+        for (int i = 0; i < out->count; i++) {
+            print_message("down %d: at %.2f %.2f %.2f: %.2f\n", n, out->hand[i].palm.x,
+                          out->hand[i].palm.y, out->hand[i].palm.z, out->hand[i].confidence);
+        }
+        assert_int_equal(count_low(out, 0.5), n);
+        assert_int_equal(count_sure(out) - count_low(out, 0.5), 2);
+        bench_destroy(&b);
+    }
+}
+
 /* An arm that points at the camera hides its shoulder: it hangs in front of the body. */
 static void test_arm_forward(void **state)
 {
@@ -533,6 +583,7 @@ int main(void)
         cmocka_unit_test(test_fist_with_mixed_edges),
         cmocka_unit_test(test_palm_in_ring_is_no_pinch),
         cmocka_unit_test(test_people),
+        cmocka_unit_test(test_feet),
         cmocka_unit_test(test_arm_forward),
         cmocka_unit_test(test_no_hands),
         cmocka_unit_test(test_follows),

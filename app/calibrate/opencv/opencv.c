@@ -2,6 +2,7 @@
  * path in $RELIEF_OPENCV_LIBRARY. */
 #include "calibrate/opencv/opencv.h"
 
+#include "base/part.h"
 #include "relief/base.h"
 
 #include <dlfcn.h>
@@ -11,8 +12,9 @@
 #include <string.h>
 
 #define CURE                                                                                       \
-    "`relief calibrate` needs OpenCV: install libopencv-calib3d-dev (and libopencv-contrib-dev "   \
-    "for ChArUco boards), then build Relief again"
+    "`relief calibrate` needs OpenCV: " RLF_GET_PART(                                              \
+        "libopencv-calib3d-dev (for ChArUco boards libopencv-contrib-dev, too)",                   \
+        "script/bootstrap --all", "RELIEF_WITH_OPENCV")
 
 static relief_opencv_api functions;
 static char reason[512];

@@ -128,8 +128,8 @@ int find_charuco(const cv::Mat &image, const relief_opencv_board *board, relief_
 #else
 int find_charuco(const cv::Mat &, const relief_opencv_board *, relief_opencv_corners *)
 {
-    throw std::runtime_error("this build has no ChArUco boards: install libopencv-contrib-dev and "
-                             "build Relief again");
+    throw std::runtime_error("this build has no ChArUco boards: " RLF_GET_PART(
+        "libopencv-contrib-dev", "script/bootstrap --all", "RELIEF_WITH_OPENCV"));
 }
 #endif
 

@@ -24,7 +24,8 @@ static void load(void)
     static const io_library_def def = {
         .variable = "RELIEF_FREENECT2_LIBRARY",
         .names = names,
-        .cure = "install libfreenect2 and build Relief again: its shim is then made too",
+        .cure = "build libfreenect2 from source (github.com/OpenKinect/libfreenect2, not in "
+                "Debian), then `cmake --preset release -DRELIEF_WITH_FREENECT2=ON` and build again",
         .symbols = symbols,
         .symbol_count = (int32_t)(sizeof(symbols) / sizeof(symbols[0]))};
     is_loaded = io_library_load(&def, &functions, reason, sizeof(reason));

@@ -1,13 +1,16 @@
 /* Stands in for qhull.c where it is not built. */
 #include "io/hull/hull.h"
 
+#include "base/part.h"
+
 rlf_result io_hull_wrap(const char *name, const rlf_vec3 *points, int32_t count, io_mesh *out)
 {
     (void)points;
     (void)count;
     *out = (io_mesh){0};
-    return rlf_fail(RLF_ERROR_UNSUPPORTED,
-                    "%s: no hull can be made around points by this build: install libqhull-dev and "
-                    "configure with -DRELIEF_WITH_QHULL=ON, or give a convex OBJ",
-                    name);
+    return rlf_fail(
+        RLF_ERROR_UNSUPPORTED,
+        "%s: no hull can be made around points by this build: give a convex OBJ, or " RLF_GET_PART(
+            "libqhull-dev", "script/bootstrap", "RELIEF_WITH_QHULL"),
+        name);
 }

@@ -1,6 +1,8 @@
 /* MCAP files in a build without zstd and lz4. */
 #include "io/recording/sink.h"
 
+#include "base/part.h"
+
 rlf_result io_mcap_sink_open(const char *path, const rlf_source_info *info,
                              const rlf_recording_def *def, io_sink *out)
 {
@@ -9,7 +11,7 @@ rlf_result io_mcap_sink_open(const char *path, const rlf_source_info *info,
     (void)out;
     return rlf_fail(
         RLF_ERROR_UNSUPPORTED,
-        "%s: this build was made without MCAP: configure it with -DRELIEF_WITH_MCAP=ON "
-        "(Debian: apt install libzstd-dev liblz4-dev), or record into a folder, FOLDER/",
+        "%s: this build was made without MCAP: record into a folder, FOLDER/, or " RLF_GET_PART(
+            "libzstd-dev liblz4-dev", "script/bootstrap", "RELIEF_WITH_MCAP"),
         path);
 }

@@ -1,6 +1,8 @@
 /* Chunks of a bag, unpacked. */
 #include "io/rosbag/bag_parts.h"
 
+#include "base/part.h"
+
 #ifdef RLF_HAVE_LZ4
 #include <lz4frame.h>
 #endif
@@ -63,11 +65,13 @@ static const bool has_bz2 = false;
 rlf_result bag_check_packing(const char *path, bag_packing packing)
 {
     if ((packing == BAG_PACKING_LZ4 && !has_lz4) || (packing == BAG_PACKING_BZ2 && !has_bz2)) {
-        const char *name = packing == BAG_PACKING_LZ4 ? "lz4" : "bz2";
+        const bool is_lz4 = packing == BAG_PACKING_LZ4;
         return rlf_fail(RLF_ERROR_UNSUPPORTED,
-                        "%s: is packed with %s, which this build was made without: install "
-                        "lib%s-dev and build again, or run rosbag decompress",
-                        path, name, name);
+                        "%s: is packed with %s, which this build was made without: run rosbag "
+                        "decompress, or %s",
+                        path, is_lz4 ? "lz4" : "bz2",
+                        is_lz4 ? RLF_GET_PART("liblz4-dev", "script/bootstrap", "RELIEF_WITH_LZ4")
+                               : RLF_GET_PART("libbz2-dev", "script/bootstrap", "RELIEF_WITH_BZ2"));
     }
     return RLF_OK;
 }

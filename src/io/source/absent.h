@@ -7,6 +7,7 @@
 /* A format or a driver that this build was made without. */
 typedef struct io_backend_absent {
     const char *scheme, *extensions, *option, *summary;
+    const char *cure; /* how to get it */
 } io_backend_absent;
 
 /* NULL past the last. */

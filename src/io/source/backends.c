@@ -1,5 +1,7 @@
 /* The back ends of this build. */
 #include "io/source/backends.h"
+
+#include "base/part.h"
 #include "io/source/absent.h"
 
 /* In the order in which they are asked for a file: a folder is asked last, as it takes any. */
@@ -27,13 +29,16 @@ const rlf_backend *io_backend_built_in_at(int32_t index)
 
 static const io_backend_absent absent[] = {
 #ifndef RLF_HAVE_OPENNI2
-    {"openni2", NULL, "RELIEF_WITH_OPENNI2", "cameras through OpenNI2"},
+    {"openni2", NULL, "RELIEF_WITH_OPENNI2", "cameras through OpenNI2",
+     RLF_GET_PART("libopenni2-0", "script/bootstrap --all", "RELIEF_WITH_OPENNI2")},
 #endif
 #ifndef RLF_HAVE_FREENECT
-    {"freenect", NULL, "RELIEF_WITH_FREENECT", "Kinect v1 through libfreenect"},
+    {"freenect", NULL, "RELIEF_WITH_FREENECT", "Kinect v1 through libfreenect",
+     RLF_GET_PART("libfreenect0.5", "script/bootstrap --all", "RELIEF_WITH_FREENECT")},
 #endif
 #ifndef RLF_HAVE_MCAP
-    {"mcap", ".mcap", "RELIEF_WITH_MCAP", "a recording: MCAP with ROS 2 pictures"},
+    {"mcap", ".mcap", "RELIEF_WITH_MCAP", "a recording: MCAP with ROS 2 pictures",
+     RLF_GET_PART("libzstd-dev liblz4-dev", "script/bootstrap", "RELIEF_WITH_MCAP")},
 #endif
     {0},
 };

@@ -72,9 +72,8 @@ static const rlf_backend *by_path(const char *path)
 
 static rlf_result fail_absent(const char *source, const io_backend_absent *a)
 {
-    return rlf_fail(RLF_ERROR_UNSUPPORTED,
-                    "%s: this build was made without %s: configure it with -D%s=ON", source,
-                    a->scheme, a->option);
+    return rlf_fail(RLF_ERROR_UNSUPPORTED, "%s: this build was made without %s: %s", source,
+                    a->scheme, a->cure);
 }
 
 /* All kinds with blanks between; "synthetic" is opened before any back end is asked. */

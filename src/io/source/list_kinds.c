@@ -35,6 +35,7 @@ int32_t rlf_source_kind_list(rlf_source_kind *out, int32_t capacity)
         const rlf_source_kind kind = {.scheme = a->scheme,
                                       .extensions = a->extensions,
                                       .summary = a->summary,
+                                      .unavailable = a->cure,
                                       .option = a->option};
         put(out, capacity, &count, &kind);
     }
