@@ -103,7 +103,11 @@ static void binning_and_windows_are_applied(void **state)
                       RLF_ERROR_FORMAT, "a.mcap", "/d/image_raw", "?camera=FILE");
     info = ros_lens("d", small, 0);
     test_expect_error(io_camera_info_lens(&info, "a.mcap", "/d/image_raw", &camera),
-                      RLF_ERROR_FORMAT, "not calibrated", "8 x 6", "?camera=FILE");
+                      RLF_ERROR_FORMAT, "a.mcap", "not calibrated", "?camera=FILE");
+    info = ros_lens("d", small, 100);
+    info.d[1] = (double)NAN;
+    test_expect_error(io_camera_info_lens(&info, "a.mcap", "/d/image_raw", &camera),
+                      RLF_ERROR_FORMAT, "a.mcap", "distortion[1] is not a finite", "?camera=FILE");
 }
 
 static void what_is_left_out_is_told(void **state)

@@ -50,7 +50,7 @@ static const char *binary_kind(const io_bytes *file)
         }
     }
     const size_t end = file->size < LOOK_AT ? file->size : LOOK_AT;
-    return memchr(file->data, '\0', end) != NULL ? "a binary file" : NULL;
+    return end > 0 && memchr(file->data, '\0', end) != NULL ? "a binary file" : NULL;
 }
 
 /* JSON begins with a bracket, and mrcal's files name a lens model. */

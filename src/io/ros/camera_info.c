@@ -151,34 +151,54 @@ bool io_camera_info_size(const io_camera_info *info, int32_t *out_width, int32_t
     return is_some;
 }
 
-rlf_result io_camera_info_lens(const io_camera_info *info, const char *name, const char *topic,
-                               rlf_camera *out)
+static rlf_result fail_lens(const char *name, const char *topic, const char *problem)
 {
-    const bool uses_p = strstr(topic, "rect") != NULL && info->p[0] > 0.0;
+    return rlf_fail(RLF_ERROR_FORMAT,
+                    "%s: the CameraInfo of %s cannot be used (%s): give a calibration with "
+                    "?camera=FILE",
+                    name, topic, problem);
+}
+
+/* The first three columns of P, or K. */
+static rlf_camera pinhole_of(const io_camera_info *info, bool uses_p)
+{
     const double *m = uses_p ? info->p : info->k;
     const int row = uses_p ? 4 : 3;
-    losses lost = {.length = 0};
-    int32_t width, height;
-    if (!io_camera_info_size(info, &width, &height) || !(info->k[0] > 0.0 || uses_p)) {
-        return rlf_fail(RLF_ERROR_FORMAT,
-                        "%s: the CameraInfo of %s is not calibrated (%u x %u, focal length %g): "
-                        "give a calibration with ?camera=FILE",
-                        name, topic, (unsigned)info->width, (unsigned)info->height, info->k[0]);
-    }
-    *out = (rlf_camera){.width = (int32_t)info->width,
+    return (rlf_camera){.width = (int32_t)info->width,
                         .height = (int32_t)info->height,
                         .fx = m[0],
                         .fy = m[row + 1],
                         .cx = m[2],
                         .cy = m[row + 2]};
-    if (m[1] != 0.0) {
-        lose(&lost, "skew (%g)", m[1]);
+}
+
+rlf_result io_camera_info_lens(const io_camera_info *info, const char *name, const char *topic,
+                               rlf_camera *out)
+{
+    const bool uses_p = strstr(topic, "rect") != NULL && info->p[0] > 0.0;
+    const double skew = uses_p ? info->p[1] : info->k[1];
+    losses lost = {.length = 0};
+    char problem[128];
+    int32_t width, height;
+    if (!io_camera_info_size(info, &width, &height)) {
+        return fail_lens(name, topic, "it describes no picture");
+    }
+    *out = pinhole_of(info, uses_p);
+    if (!(out->fx > 0.0 && out->fy > 0.0)) {
+        return fail_lens(name, topic, "it is not calibrated, its focal length is not > 0");
+    }
+    if (skew != 0.0) {
+        lose(&lost, "skew (%g)", skew);
     }
     if (!uses_p) {
         set_distortion(info, out, &lost);
     }
     check_rectification(info, uses_p, &lost);
     io_camera_window_apply(&info->window, out);
+    if (rlf_camera_check(out, "it") != RLF_OK) {
+        snprintf(problem, sizeof(problem), "%.120s", rlf_error_text());
+        return fail_lens(name, topic, problem);
+    }
     if (lost.length > 0) {
         rlf_log(RLF_LOG_WARNING,
                 "%s: the CameraInfo of %s has %s, which Relief does not have: it is left out; give "

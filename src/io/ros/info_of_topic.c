@@ -102,7 +102,7 @@ int32_t io_ros_find_info(const io_ros_topics *topics, const io_ros_topic *pictur
     if (how == MATCH_SIZE && has_own) {
         return -1; /* its own says that its lens is another */
     }
-    if (how == MATCH_SIZE || (how == MATCH_FRAME && has_own)) {
+    if (how == MATCH_SIZE || how == MATCH_FRAME) {
         rlf_log(RLF_LOG_WARNING,
                 "%s: the lens of %s is that of %s, %s: %s; ?camera=FILE gives another",
                 topics->name, picture->name, topics->infos[found].name,
@@ -121,7 +121,11 @@ const char *io_ros_tell_info(const io_ros_topics *topics, const io_ros_topic *pi
     if (own == NULL) {
         snprintf(out, size, "no CameraInfo is beside it");
     } else if (!io_camera_info_size(&own->info, &width, &height)) {
-        snprintf(out, size, "%.80s describes no picture", own->name);
+        snprintf(out, size,
+                 "the region or the binning of %.80s leaves nothing of its %u x %u pixels",
+                 own->name, (unsigned)own->info.width, (unsigned)own->info.height);
+    } else if (width == picture->width && height == picture->height) {
+        snprintf(out, size, "%.80s is of no use", own->name);
     } else {
         snprintf(out, size, "%.80s describes pictures of %d x %d, and these have %d x %d",
                  own->name, (int)width, (int)height, (int)picture->width, (int)picture->height);
