@@ -33,13 +33,24 @@ static rlf_known_view known_view(const rlf_pipeline *p)
     return view;
 }
 
-/* One line where it is not sure. */
+static bool has_falling_body(const rlf_pipeline *p)
+{
+    bool any = false;
+    for (int32_t i = 0; i < p->scene.body_count; i++) {
+        const rlf_body_def *b = &p->scene.bodies[i];
+        const bool is_pulled = b->gravity_scale < 0.0 || b->gravity_scale > 0.0;
+        any = any || (is_pulled && !b->is_kinematic && !b->is_real);
+    }
+    return any;
+}
+
+/* One line where it is not sure: a warning when bodies fall by it. */
 static void tell_gravity(const rlf_pipeline *p)
 {
     const rlf_vec3 g = rlf_world_get_snapshot(p->world)->gravity;
     double confidence = p->last.gravity_confidence;
     if (confidence < RLF_UP_SURE) {
-        rlf_log(RLF_LOG_WARNING,
+        rlf_log(has_falling_body(p) ? RLF_LOG_WARNING : RLF_LOG_INFO,
                 "gravity: not sure which way is down (confidence %.2f): taken to be %.2f, %.2f, "
                 "%.2f; if that is wrong, pass --gravity X,Y,Z",
                 confidence, g.x, g.y, g.z);

@@ -21,6 +21,11 @@ typedef struct guess_list {
 static const double nothing_fits = -8.0; /* the odds that none of the guesses is right */
 static const double least_share = 0.03;  /* of normals along up: fewer are chance */
 static const double doubted_roll = 0.15; /* of the roll's odds that confidence believes */
+static const double least_level = 0.996; /* cos 5 degrees: from the picture's up, or floors' */
+static const double level_share = 0.1;   /* of normals along an axis: a plane, and no clutter */
+static const double square_share = 0.05;    /* of normals square to it */
+static const double least_standing = 0.001; /* of the pixels: something stands there */
+static const double alone = 0.65;           /* confidence in what nothing agrees with */
 
 /* Cameras stand upright, or nearly so, far more often than not. The nearer to straight down one
  * looks, the less a picture's up means. */
@@ -85,15 +90,41 @@ static void add_picture_ways(guess_list *list, const rlf_up_samples *samples)
     }
 }
 
+static double share_along(const guess *g)
+{
+    return g->evidence.up + g->evidence.down;
+}
+
+/* Walls and sides are square to it: of what is nearly square, most is. */
+static bool has_square(const guess *g, double least)
+{
+    return g->evidence.square > least && 2.0 * g->evidence.square > g->evidence.across;
+}
+
+/* A floor or a ceiling, and walls square to it, that the picture is level with: no other camera but
+ * one that was set up to be level sees them so. */
+static bool is_level(const guess *g)
+{
+    return -g->up.y > least_level && share_along(g) > level_share && has_square(g, level_share);
+}
+
+/* One plane alone may as well be a wall that a tilted camera sees, or a ramp: walls must agree, or
+ * things must stand on it. */
+static double bound_of(const guess *g)
+{
+    return has_square(g, square_share) || g->evidence.standing > least_standing ? 1.0 : alone;
+}
+
 /* The share of a guess among all. */
 static double confidence_in(const guess_list *list, int32_t best)
 {
     const guess *b = &list->at[best];
-    double own = b->score + doubted_roll * b->roll, sum = rlf_exp(nothing_fits - own);
+    double believed = is_level(b) ? 1.0 : doubted_roll;
+    double own = b->score + believed * b->roll, sum = rlf_exp(nothing_fits - own);
     for (int32_t k = 0; k < list->count; k++) {
-        sum += rlf_exp(list->at[k].score + doubted_roll * list->at[k].roll - own);
+        sum += rlf_exp(list->at[k].score + believed * list->at[k].roll - own);
     }
-    return 1.0 / sum;
+    return rlf_min(1.0 / sum, bound_of(b));
 }
 
 double rlf_surface_find_up(const rlf_surface *surface, rlf_vec3 *out_up)
@@ -120,5 +151,7 @@ double rlf_surface_find_up(const rlf_surface *surface, rlf_vec3 *out_up)
         best = a->score + a->roll > b->score + b->roll ? k : best;
     }
     *out_up = rlf_up_level(surface, list.at[best].up);
-    return confidence_in(&list, best);
+    /* A ramp before a wall: between both is what all normals fit, and the ramp is far from it. */
+    bool agrees = rlf_dot(*out_up, list.at[best].up) > least_level;
+    return rlf_min(confidence_in(&list, best), agrees ? 1.0 : alone);
 }

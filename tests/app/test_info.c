@@ -154,6 +154,56 @@ static void noise_is_found_where_nothing_moves(void **state)
     stillness_destroy(&s);
 }
 
+/* Noise that lasts from frame to frame, as structured light has it, in steps of depth, with holes;
+ * a sensor that is noisier than it is taken to be; and edges, which take both sides in turn. */
+static void a_still_room_is_still_whatever_its_noise(void **state)
+{
+    (void)state;
+    stillness *s = stillness_create(&small_rig);
+    static float depth[W * H], lasting[W * H];
+    uint32_t random = 5;
+    memset(lasting, 0, sizeof(lasting));
+    for (int t = 0; t < 60; t++) {
+        for (int i = 0; i < W * H; i++) {
+            const double n = normal(&random);
+            const bool is_rough = i % W >= W / 2;
+            const bool is_missing = (i * 31 + t * 17) % 11 == 0;
+            lasting[i] = (float)(0.9 * lasting[i] + 0.43 * n);
+            const double sigma = rlf_depth_noise_sigma(&small_rig.noise, 1.8);
+            const double z = is_rough ? 3.2 + 0.09 * n : 1.8 + sigma * lasting[i];
+            depth[i] = is_missing ? 0.0f : (float)(0.004 * floor(z / 0.004 + 0.5));
+        }
+        depth[0] = t % 2 == 0 ? 1.8f : 3.2f;
+        stillness_add(s, depth);
+    }
+    stillness_result r;
+    stillness_get(s, &r);
+    assert_true(r.still_percent > 95.0);
+    assert_true(fabs(r.bins[6].median_m - 0.09) < 0.006);
+    stillness_destroy(&s);
+}
+
+static void noise_over_the_end_of_the_scale_is_not_measured(void **state)
+{
+    (void)state;
+    stillness *s = stillness_create(&small_rig);
+    static float depth[W * H];
+    uint32_t random = 9;
+    for (int t = 0; t < 60; t++) {
+        for (int i = 0; i < W * H; i++) {
+            depth[i] = (float)(4.0 + 0.3 * normal(&random));
+        }
+        stillness_add(s, depth);
+    }
+    stillness_result r;
+    stillness_get(s, &r);
+    assert_true(r.still_percent > 90.0);
+    for (int b = 0; b < INFO_BINS; b++) {
+        assert_true(r.bins[b].pixels == 0 || r.bins[b].median_m >= STILLNESS_MOST_M);
+    }
+    stillness_destroy(&s);
+}
+
 /* ---- missing pixels ---------------------------------------------------------------------------
  */
 
@@ -216,6 +266,8 @@ int main(void)
         cmocka_unit_test(a_missing_transform_is_off_by_more_near_by),
         cmocka_unit_test(without_edges_nothing_is_said),
         cmocka_unit_test(noise_is_found_where_nothing_moves),
+        cmocka_unit_test(a_still_room_is_still_whatever_its_noise),
+        cmocka_unit_test(noise_over_the_end_of_the_scale_is_not_measured),
         cmocka_unit_test(missing_pixels_are_told_apart),
         cmocka_unit_test(a_survey_counts_what_comes),
     };

@@ -199,6 +199,43 @@ static void a_rolled_empty_room_is_not_sure(void **state)
     }
 }
 
+/* Who set a camera up to be level with a floor and walls: sure, with nothing standing there. */
+static void a_level_camera_in_an_empty_room_is_sure(void **state)
+{
+    (void)state;
+    double confidence;
+    for (double off = -4.0; off <= 4.0; off += 4.0) {
+        rlf_quat turn = camera_turn(off < 0.0 ? 0.0 : off, 0.0);
+        look(&view, room, 5, turn, 0.05);
+        assert_true(error_of(&view, turn, &confidence) < 1.0);
+        assert_true(confidence >= RLF_UP_SURE);
+        turn = camera_turn(0.0, off);
+        look(&view, room, 5, turn, 0.05);
+        assert_true(error_of(&view, turn, &confidence) < 1.0);
+        assert_true(confidence >= RLF_UP_SURE);
+    }
+}
+
+/* Before a wall ramps are as level as a tilted camera says; a wall alone says nothing. */
+static void a_ramp_and_a_tilted_wall_do_not_make_sure(void **state)
+{
+    (void)state;
+    double confidence;
+    for (double slope = 12.0; slope <= 30.0; slope += 6.0) {
+        const double s = sin(slope * RAD), c = cos(slope * RAD);
+        const plane ramp[2] = {{{0, -c, -s}, -1.4 * c}, room[4]};
+        for (double down = -10.0; down <= 40.0; down += 5.0) {
+            rlf_quat turn = camera_turn(down, 0.0);
+            look(&view, ramp, 2, turn, 0.02);
+            double error = error_of(&view, turn, &confidence);
+            assert_true(error < 10.0 || confidence < RLF_UP_SURE);
+            look(&view, &room[4], 1, turn, 0.02);
+            error = error_of(&view, turn, &confidence);
+            assert_true(error < 10.0 || confidence < RLF_UP_SURE);
+        }
+    }
+}
+
 static void what_tells_nothing_is_told_so(void **state)
 {
     (void)state;
@@ -223,6 +260,8 @@ int main(void)
         cmocka_unit_test(a_wall_is_no_floor),
         cmocka_unit_test(things_on_a_table_tell_for_any_roll),
         cmocka_unit_test(a_rolled_empty_room_is_not_sure),
+        cmocka_unit_test(a_level_camera_in_an_empty_room_is_sure),
+        cmocka_unit_test(a_ramp_and_a_tilted_wall_do_not_make_sure),
         cmocka_unit_test(what_tells_nothing_is_told_so),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
