@@ -1,7 +1,9 @@
 /* Opens and closes what a run needs. */
+#define _POSIX_C_SOURCE 200809L
 #include "session.h"
 
 #include <string.h>
+#include <sys/stat.h>
 
 session_options session_options_default(void)
 {
@@ -107,6 +109,18 @@ static rlf_result create_pipeline(const session_options *options, session *s)
     return rlf_pipeline_create(&def, &s->pipeline);
 }
 
+/* A block of a map has 1.2 times its bytes in the file; the rest is for what the room grows by. */
+#define MAP_MEMORY_PER_FILE 1.5
+
+/* As much memory as the room needs: whoever fused it had that, too. */
+static int32_t map_memory_mb(const char *path, int32_t least_mb)
+{
+    struct stat file;
+    const bool is_there = stat(path, &file) == 0;
+    const double mb = is_there ? MAP_MEMORY_PER_FILE * (double)file.st_size / 1048576.0 : 0.0;
+    return (int32_t)rlf_clamp(mb, least_mb, RLF_MAP_MEMORY_MOST_MB);
+}
+
 static rlf_result open_map(const session_options *options, session *s)
 {
     if (options->map_path == NULL) {
@@ -115,6 +129,7 @@ static rlf_result open_map(const session_options *options, session *s)
     rlf_map_def def = rlf_map_def_default();
     def.rig = rlf_source_get_info(s->source)->rig;
     def.pool = s->pool;
+    def.memory_mb = map_memory_mb(options->map_path, def.memory_mb);
     rlf_result result = rlf_map_create(&def, &s->map);
     return result == RLF_OK ? rlf_map_read_file(s->map, options->map_path) : result;
 }

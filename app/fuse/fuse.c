@@ -2,17 +2,16 @@
 #define _POSIX_C_SOURCE 200809L
 #include "command.h"
 #include "commands.h"
-#include "fuse/fuser.h"
 #include "fuse/picture.h"
+#include "fuse/report.h"
+#include "fuse/tally.h"
 #include "fuse/trajectory.h"
 #include "options.h"
+#include "pipeline/moving/source_pose.h"
 
 #include <getopt.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
-
-#define PROGRESS_INTERVAL_NS 500000000
 
 typedef struct fuse_options {
     const char *source, *out_path, *map_path, *trajectory_path, *picture_path;
@@ -27,13 +26,11 @@ typedef struct fuse_run {
     rlf_pool *pool;
     rlf_source *source;
     fuser fuser;
-    bool has_first;
-    rlf_pose T_first_source; /* the first camera's frame is the world */
-    int64_t seen, fused, without_pose;
+    source_poses poses; /* the first camera's frame is the world */
+    fuse_tally tally;
+    fuse_progress progress;
     trajectory trajectory;
     room_view room;
-    double predict_ms, align_ms, integrate_ms;
-    int64_t last_progress_ns;
 } fuse_run;
 
 static void print_help(void)
@@ -51,7 +48,9 @@ static void print_help(void)
         "  --frames N        at most so many frames\n"
         "  --voxel MM        edge of a voxel, 2..50 mm, default 6\n"
         "  --memory MB       most memory of the map, default 288; the farthest leaves first\n"
-        "  --min-weight N    leaves out what was seen less; a near frame adds 16, default 32\n"
+        "  --min-weight N    leaves out of the mesh what was seen less: a frame from near adds "
+        "16,\n"
+        "                    one from far 1; default 32, less for fewer than 128 frames\n"
         "  --quiet           no progress, no summary\n"
         "  --threads N       default: one per processor\n" COMMAND_PLUGIN_HELP "\n"
         "examples:\n"
@@ -68,7 +67,7 @@ static bool take_poses(const char *text, void *out)
 
 static int parse(int argc, char **argv, fuse_options *o)
 {
-    *o = (fuse_options){.frame_limit = INT64_MAX, .min_weight = 32};
+    *o = (fuse_options){.frame_limit = INT64_MAX};
     const option_def options[] = {
         {.name = "out", .kind = OPTION_TEXT, .out = &o->out_path},
         {.name = "save", .kind = OPTION_FILE, .out = &o->map_path, .choices = ".map"},
@@ -149,73 +148,53 @@ static rlf_result open_all(fuse_run *run)
         result =
             fuser_open(&run->fuser, &rlf_source_get_info(run->source)->rig, &options, run->pool);
     }
+    if (result == RLF_OK) {
+        const rlf_pose first = rlf_pose_identity();
+        run->poses = source_poses_begin(&first, rlf_map_get_status(run->fuser.map).voxel_m);
+        run->poses.has_told = !o->use_source_poses; /* else they are only compared with */
+    }
     return result;
 }
 
-static void print_progress(fuse_run *run)
-{
-    const int64_t now = rlf_clock_ns();
-    if (run->options->is_quiet || now - run->last_progress_ns < PROGRESS_INTERVAL_NS ||
-        !isatty(STDERR_FILENO)) {
-        return;
-    }
-    run->last_progress_ns = now;
-    const rlf_map_status s = rlf_map_get_status(run->fuser.map);
-    const long long count = rlf_source_get_info(run->source)->frame_count;
-    fprintf(stderr, "\rframe %lld of %lld, %d blocks, %.0f MB, %.1f ms ", (long long)run->fused,
-            count, (int)s.block_count, (double)s.bytes * 1e-6, run->fuser.integrate_ms);
-}
-
-/* The source's pose, in the first camera's frame. A frame without one is counted. */
-static bool source_pose(fuse_run *run, const rlf_frame *frame, rlf_pose *out)
-{
-    if (!frame->has_pose) {
-        run->without_pose++;
-        return false;
-    }
-    if (!run->has_first) {
-        run->T_first_source = rlf_pose_invert(&frame->T_world_camera);
-        run->has_first = true;
-    }
-    *out = rlf_pose_mul(&run->T_first_source, &frame->T_world_camera);
-    return true;
-}
-
-/* A pose that is none is left out, and so is a frame that cannot be placed. */
+/* A frame without a pose that can be used is left out, and so is one that cannot be placed. */
 static rlf_result add_frame(fuse_run *run, const rlf_frame *frame)
 {
+    fuse_tally *t = &run->tally;
     rlf_pose T;
-    const bool has_pose = source_pose(run, frame, &T);
-    const bool is_tracked = !run->options->use_source_poses;
-    run->seen++;
-    if (!is_tracked && !has_pose) {
+    const bool has_pose = source_poses_take(&run->poses, frame, &T);
+    t->seen++;
+    t->without_pose += !has_pose;
+    if (!t->is_tracked && !has_pose) {
         return RLF_OK;
     }
-    rlf_result result = fuser_add(&run->fuser, frame, is_tracked ? NULL : &T, NULL);
-    if (result == RLF_ERROR_INVALID) {
-        run->without_pose++;
-        return RLF_OK;
-    }
+    const rlf_result result = fuser_add(&run->fuser, frame, t->is_tracked ? NULL : &T, NULL);
     if (result != RLF_OK) {
         return result;
     }
-    run->predict_ms += run->fuser.pose.predict_ms;
-    run->align_ms += run->fuser.pose.align_ms;
-    if (is_tracked && run->fuser.pose.last.health == RLF_TRACK_LOST) {
+    fuse_tally_add(t, &run->fuser);
+    if (t->is_tracked && run->fuser.pose.last.health == RLF_TRACK_LOST) {
         return RLF_OK;
     }
-    run->fused++;
-    run->integrate_ms += run->fuser.integrate_ms;
-    const rlf_pose *found = is_tracked ? &run->fuser.pose.last.T_world_camera : &T;
+    t->fused++;
+    const rlf_pose *found = t->is_tracked ? &run->fuser.pose.last.T_world_camera : &T;
     room_view_pass(&run->room, found, run->fuser.surface);
     return trajectory_add(&run->trajectory, frame->time_ns, found, has_pose ? &T : NULL);
 }
 
+static int64_t frame_count(const fuse_run *run)
+{
+    const int64_t all = rlf_source_get_info(run->source)->frame_count;
+    const int64_t limit = run->options->frame_limit;
+    return all < 0 ? (limit < INT64_MAX ? limit : -1) : (all < limit ? all : limit);
+}
+
 static rlf_result fuse_frames(fuse_run *run)
 {
-    while (!command_interrupted && run->seen < run->options->frame_limit) {
+    while (!command_interrupted && run->tally.seen < run->options->frame_limit) {
         rlf_frame frame;
+        const int64_t start = rlf_clock_ns();
         rlf_result result = rlf_source_next(run->source, &frame);
+        run->tally.source_ms += (double)(rlf_clock_ns() - start) * 1e-6;
         if (result == RLF_NO_FRAME) {
             continue;
         }
@@ -225,43 +204,42 @@ static rlf_result fuse_frames(fuse_run *run)
         if (result != RLF_OK) {
             return result == RLF_END ? RLF_OK : result;
         }
-        print_progress(run);
+        if (!run->options->is_quiet) {
+            fuse_progress_show(&run->progress, &run->tally, &run->fuser, frame_count(run));
+        }
     }
     return RLF_OK;
 }
 
-static void print_summary(const fuse_run *run, const rlf_map_mesh *mesh)
+static rlf_result write_mesh(const fuse_run *run)
 {
-    const rlf_map_status s = rlf_map_get_status(run->fuser.map);
-    const double per_frame = 1.0 / (double)run->seen;
-    printf("%lld frames of %lld fused; %d blocks, %.0f MB\n", (long long)run->fused,
-           (long long)run->seen, (int)s.block_count, (double)s.bytes * 1e-6);
-    printf("a frame: predict %.1f ms, align %.1f ms, integrate %.1f ms\n",
-           run->predict_ms * per_frame, run->align_ms * per_frame, run->integrate_ms * per_frame);
-    if (!run->options->use_source_poses && run->without_pose == 0) {
-        const double error = trajectory_error(&run->trajectory);
-        printf("trajectory: %lld frames lost", (long long)run->fuser.pose.lost_count);
-        if (error >= 0.0) {
-            printf("; %.1f mm RMS from the source's own", 1000.0 * error);
-        }
-        printf("\n");
+    const fuse_options *o = run->options;
+    const int32_t least = o->min_weight > 0 ? o->min_weight : fuse_tally_min_weight(&run->tally);
+    rlf_map_mesh mesh;
+    rlf_result result = rlf_map_mesh_create(run->fuser.map, least, &mesh);
+    if (result != RLF_OK) {
+        return result;
     }
-    if (run->options->out_path != NULL) {
-        printf("%zu vertices, %zu triangles in %s\n", mesh->vertex_count, mesh->triangle_count,
-               run->options->out_path);
+    result = fuse_tally_check_mesh(&run->tally, &run->fuser, least, &mesh);
+    if (result == RLF_OK) {
+        result = rlf_map_mesh_write(o->out_path, &mesh);
     }
+    if (result == RLF_OK && !o->is_quiet) {
+        fuse_report_mesh(&mesh, least, o->out_path);
+    }
+    rlf_map_mesh_destroy(&mesh);
+    return result;
 }
 
 static rlf_result write_files(fuse_run *run)
 {
     const fuse_options *o = run->options;
-    rlf_map_mesh mesh = {.vertex_count = 0};
-    rlf_result result = RLF_OK;
-    if (o->out_path != NULL) {
-        result = rlf_map_mesh_create(run->fuser.map, o->min_weight, &mesh);
-        if (result == RLF_OK) {
-            result = rlf_map_mesh_write(o->out_path, &mesh);
-        }
+    rlf_result result = fuse_tally_check(&run->tally, &run->fuser);
+    if (result == RLF_OK && !o->is_quiet) {
+        fuse_report_print(&run->tally, &run->fuser, &run->trajectory);
+    }
+    if (result == RLF_OK && o->out_path != NULL) {
+        result = write_mesh(run);
     }
     if (result == RLF_OK && o->map_path != NULL) {
         result = rlf_map_write_file(run->fuser.map, o->map_path);
@@ -272,10 +250,6 @@ static rlf_result write_files(fuse_run *run)
     if (result == RLF_OK && o->picture_path != NULL) {
         result = fuse_picture_write(o->picture_path, &run->fuser, &run->room, &o->orbit, run->pool);
     }
-    if (result == RLF_OK && !o->is_quiet) {
-        print_summary(run, &mesh);
-    }
-    rlf_map_mesh_destroy(&mesh);
     return result;
 }
 
@@ -289,17 +263,9 @@ static void close_all(fuse_run *run)
 
 static int finish(fuse_run *run, rlf_result result)
 {
-    if (!run->options->is_quiet && run->last_progress_ns != 0) {
-        fprintf(stderr, "\n");
-    }
-    if (result == RLF_OK && run->fused == 0 && command_interrupted) {
+    fuse_progress_end(&run->progress);
+    if (result == RLF_OK && run->tally.fused == 0 && command_interrupted) {
         return command_stopped("fuse");
-    }
-    if (result == RLF_OK && run->fused == 0) {
-        result = rlf_fail(RLF_ERROR_INVALID,
-                          "%s: no frame could be placed in %lld; with --poses source a clip needs "
-                          "groundtruth.txt",
-                          run->options->source, (long long)run->seen);
     }
     if (result == RLF_OK) {
         result = write_files(run);
@@ -314,7 +280,8 @@ int fuse_main(int argc, char **argv)
     if (status >= 0) {
         return status;
     }
-    fuse_run run = {.options = &options};
+    fuse_run run = {.options = &options,
+                    .tally = {.source = options.source, .is_tracked = !options.use_source_poses}};
     if (open_all(&run) != RLF_OK) {
         status = command_not_opened("fuse");
     } else {

@@ -59,6 +59,7 @@ rlf_result fuser_add(fuser *f, const rlf_frame *frame, const rlf_pose *T_world_c
 {
     const rlf_surface *s = NULL;
     int64_t start = rlf_clock_ns();
+    f->integrate_ms = 0.0;
     rlf_result result = rlf_reconstruct_process(f->stage, frame, &s);
     if (result != RLF_OK) {
         return result;
@@ -87,6 +88,10 @@ rlf_result fuser_add(fuser *f, const rlf_frame *frame, const rlf_pose *T_world_c
         .rgba = has_color ? f->color.rgba : NULL,
     };
     result = rlf_map_integrate(f->map, &view, T_world_camera, out_change);
+    if (!f->has_fence) { /* what the first frame shows is the world, and stays */
+        rlf_map_fence(f->map);
+        f->has_fence = true;
+    }
     f->integrate_ms = ms_since(start);
     return result;
 }

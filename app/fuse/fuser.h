@@ -21,7 +21,7 @@ typedef struct fuser {
     const rlf_surface *surface; /* of the last frame; NULL before the first */
     color_view color;
     uint8_t *is_static; /* a depth pixel each; NULL when not tracked */
-    bool is_tracked;
+    bool is_tracked, has_fence;
     camera_pose pose;
     double surface_ms, color_ms, integrate_ms; /* of the last frame */
 } fuser;

@@ -30,6 +30,8 @@ extern "C" {
 
 /* Voxels along each edge of a block. */
 #define RLF_MAP_BLOCK 8
+/* Most memory that a map can have, MiB. */
+#define RLF_MAP_MEMORY_MOST_MB 16384
 
 /* Settings of a map. Memory is taken in slabs as the room grows, and never more than memory_mb. */
 typedef struct rlf_map_def {

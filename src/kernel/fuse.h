@@ -53,7 +53,7 @@ typedef struct rlf_fuse_place {
     float origin[3], step[3][3];
 } rlf_fuse_place;
 
-/* The surface in one eighth of a block: the voxel right in front of it, by less than a voxel, its
+/* The surface in one eighth of a block: the voxel right in front of it, by a voxel at most, its
  * distance, and the way out of the surface, which is 127 long; all 0 where that is not known. */
 typedef struct rlf_fuse_patch {
     uint16_t voxel; /* RLF_FUSE_NO_VOXEL: there is none */

@@ -288,16 +288,17 @@ RLF_KERNEL bool rlf_kernel_fuse_block(const rlf_fuse_view *view, const rlf_fuse_
  * bits: numbers of 16 bits, so that a register has eight. */
 RLF_KERNEL_PART void find_front(const rlf_fuse_block *block, uint16_t least[4][LANES])
 {
-    enum { EIGHTH = RLF_FUSE_VOXELS / 8, NEAR = 1023 };
+    enum { EIGHTH = RLF_FUSE_VOXELS / 8, NEAR = (int32_t)RLF_FUSE_STEPS };
     for (int32_t row = 0; row < LANES * LANES; row++) {
         uint16_t *best = least[(row >> 2 & 1) | (row >> 5) << 1];
         const int16_t *distance = &block->distance[row * LANES];
         const uint16_t first = (uint16_t)((row & 3) * 4 + (row >> 3 & 3) * 16);
         RLF_KERNEL_WHOLE
         for (int32_t i = 0; i < LANES; i++) {
-            uint16_t d = (uint16_t)distance[i];
+            /* A surface right on a voxel is 0 there: of its front a whole voxel is in front. */
+            uint16_t d = (uint16_t)(distance[i] - 1);
             uint16_t key = (uint16_t)(d * EIGHTH + first + (i & 3));
-            uint16_t none = (uint16_t)(d - 1) < NEAR ? 0 : RLF_FUSE_NO_VOXEL;
+            uint16_t none = d < NEAR ? 0 : RLF_FUSE_NO_VOXEL;
             key |= none;
             best[i] = key < best[i] ? key : best[i];
         }
@@ -324,8 +325,8 @@ RLF_KERNEL_PART float slope(const rlf_fuse_block *block, int32_t voxel, int32_t 
 
 RLF_KERNEL_PART rlf_fuse_patch patch_at(const rlf_fuse_block *block, int32_t voxel)
 {
-    rlf_fuse_patch out = {.voxel = (uint16_t)voxel,
-                          .ahead = (uint8_t)(block->distance[voxel] >> 2)};
+    const int32_t ahead = (block->distance[voxel] - 1) >> 2; /* at most 255 */
+    rlf_fuse_patch out = {.voxel = (uint16_t)voxel, .ahead = (uint8_t)ahead};
     float g[3], size2 = 0.0f;
     for (int32_t k = 0; k < 3; k++) {
         g[k] = slope(block, voxel, k);

@@ -36,17 +36,19 @@ RLF_KERNEL void rlf_kernel_fuse_normals(const rlf_fuse_row *row, int32_t count, 
         float z = row->depth[i], sigma = rlf_kernel_sigma(row->noise, z);
         float wide = row->ray_x[r] - row->ray_x[l],
               high = row->ray_y_below[i] - row->ray_y_above[i];
-        float zl = goes_on(z, row->depth[l], wide, sigma) ? row->depth[l] : z;
-        float zr = goes_on(z, row->depth[r], wide, sigma) ? row->depth[r] : z;
-        float za = goes_on(z, row->above[i], high, sigma) ? row->above[i] : z;
-        float zb = goes_on(z, row->below[i], high, sigma) ? row->below[i] : z;
-        int32_t cl = zl == z ? i : l, cr = zr == z ? i : r;
+        bool to_l = goes_on(z, row->depth[l], wide, sigma),
+             to_r = goes_on(z, row->depth[r], wide, sigma);
+        bool to_a = goes_on(z, row->above[i], high, sigma),
+             to_b = goes_on(z, row->below[i], high, sigma);
+        float zl = to_l ? row->depth[l] : z, zr = to_r ? row->depth[r] : z;
+        float za = to_a ? row->above[i] : z, zb = to_b ? row->below[i] : z;
+        int32_t cl = to_l ? l : i, cr = to_r ? r : i;
         float ax = zr * row->ray_x[cr] - zl * row->ray_x[cl];
         float ay = zr * row->ray_y[cr] - zl * row->ray_y[cl], az = zr - zl;
-        float tx = za == z ? row->ray_x[i] : row->ray_x_above[i];
-        float ty = za == z ? row->ray_y[i] : row->ray_y_above[i];
-        float ux = zb == z ? row->ray_x[i] : row->ray_x_below[i];
-        float uy = zb == z ? row->ray_y[i] : row->ray_y_below[i];
+        float tx = to_a ? row->ray_x_above[i] : row->ray_x[i];
+        float ty = to_a ? row->ray_y_above[i] : row->ray_y[i];
+        float ux = to_b ? row->ray_x_below[i] : row->ray_x[i];
+        float uy = to_b ? row->ray_y_below[i] : row->ray_y[i];
         float bx = zb * ux - za * tx, by = zb * uy - za * ty, bz = zb - za;
         /* Right across down looks forward: turned round, towards the camera. */
         float x = az * by - ay * bz, y = ax * bz - az * bx, n = ay * bx - ax * by;

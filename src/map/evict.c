@@ -18,8 +18,9 @@ static int32_t bin_of(double distance2, double most)
     return bin < EVICT_BINS ? bin : EVICT_BINS - 1;
 }
 
-/* The nearest bin such that it and those farther hold at least `wanted` blocks. */
-static int32_t nearest_bin(const rlf_map *map, rlf_vec3 eye, double most, int32_t wanted)
+/* The nearest bin beyond `least` such that it and those farther hold at least `wanted` blocks. */
+static int32_t nearest_bin(const rlf_map *map, rlf_vec3 eye, double most, int32_t least,
+                           int32_t wanted)
 {
     int32_t count[EVICT_BINS];
     memset(count, 0, sizeof(count));
@@ -29,13 +30,13 @@ static int32_t nearest_bin(const rlf_map *map, rlf_vec3 eye, double most, int32_
         }
     }
     int32_t bin = EVICT_BINS, sum = 0;
-    while (bin > 0 && sum < wanted) {
+    while (bin > least + 1 && sum < wanted) {
         sum += count[--bin];
     }
     return bin;
 }
 
-int32_t map_evict(rlf_map *map, rlf_vec3 eye)
+int32_t map_evict(rlf_map *map, rlf_vec3 eye, double distance2, double *reach2)
 {
     map_volume *v = &map->volume;
     double most = 0.0;
@@ -45,11 +46,13 @@ int32_t map_evict(rlf_map *map, rlf_vec3 eye)
         }
     }
     map->is_full = true;
-    if (!(most > 0.0)) {
+    const int32_t least = distance2 < most ? bin_of(distance2, most) : EVICT_BINS - 1;
+    if (least == EVICT_BINS - 1) {
+        *reach2 = most * least / EVICT_BINS;
         return 0;
     }
     const int32_t wanted = v->count / EVICT_SHARE + 1;
-    const int32_t bin = nearest_bin(map, eye, most, wanted);
+    const int32_t bin = nearest_bin(map, eye, most, least, wanted);
     int32_t evicted = 0;
     for (int32_t i = 0; i < v->high && evicted < wanted; i++) {
         if (may_leave(map, i) && bin_of(map_block_distance2(map, i, eye), most) >= bin) {
@@ -58,6 +61,5 @@ int32_t map_evict(rlf_map *map, rlf_vec3 eye)
             evicted++;
         }
     }
-    map->reach2 = most * bin / EVICT_BINS;
     return evicted;
 }

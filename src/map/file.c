@@ -172,9 +172,11 @@ static rlf_result read_head(rlf_map *map, const uint8_t head[HEAD_SIZE], uint32_
     }
     *out_count = (uint32_t)get(head + 20, 4);
     if (*out_count > (uint32_t)map->volume.capacity) {
-        return rlf_fail(
-            RLF_ERROR_CAPACITY, "map: has %lu blocks, memory_mb %d holds %d: give it more memory",
-            (unsigned long)*out_count, (int)map->def.memory_mb, (int)map->volume.capacity);
+        return rlf_fail(RLF_ERROR_CAPACITY,
+                        "map: has %lu blocks, %d MB hold %d: more memory (memory_mb), or a map of "
+                        "the room with larger voxels",
+                        (unsigned long)*out_count, (int)map->def.memory_mb,
+                        (int)map->volume.capacity);
     }
     *out_viewpoints = (uint32_t)get(head + 24, 4);
     if (*out_viewpoints > MAP_VIEWPOINTS) {

@@ -1,18 +1,11 @@
 /* A view into the volume: the blocks near what it sees, then those that it sees through. */
-#include "map/evict.h"
+#include "map/mark.h"
 #include "map/volume.h"
 
 #include <stddef.h>
 #include <string.h>
 
-/* Blocks are made for what is this near to a surface, voxels: in front of it enough for the cells
- * of the surface, behind it the whole of the least truncation, so that bodies find their way out.
- */
-static const float margins[] = {-2.0f, 1.0f, 4.0f};
-enum { MARGINS = sizeof(margins) / sizeof(margins[0]) };
-
 enum {
-    SPACING = 6,      /* pixels between those that look for blocks; in 36 frames all do */
     CARVE_FRAMES = 8, /* in which every block is asked once whether it is seen through */
     GRAIN = 32        /* blocks */
 };
@@ -53,97 +46,6 @@ static rlf_fuse_view view_make(const rlf_map *map, const rlf_map_view *in, int32
         .carve_weight = 1.4427f * (float)def->carve_after - 0.5f,
     };
     return view;
-}
-
-static int32_t floor_block(double x)
-{
-    int32_t i = (int32_t)x;
-    return x < (double)i ? i - 1 : i;
-}
-
-/* The block at a world place, in blocks; made when there is none. */
-static void mark(fuse_job *job, const int32_t at[3])
-{
-    rlf_map *map = job->map;
-    map_volume *v = &map->volume;
-    int32_t block = map_volume_find(v, at[0], at[1], at[2]);
-    if (block < 0) {
-        const double side = map->def.voxel_m * MAP_SIDE;
-        const rlf_vec3 eye = job->T_world_camera.p;
-        const rlf_vec3 d = {(at[0] + 0.5) * side - eye.x, (at[1] + 0.5) * side - eye.y,
-                            (at[2] + 0.5) * side - eye.z};
-        if (v->count == v->capacity && map->is_full && rlf_dot(d, d) >= map->reach2) {
-            return;
-        }
-        block = map_volume_add(v, at[0], at[1], at[2]);
-        if (block < 0) {
-            job->change.blocks_evicted += map_evict(map, eye);
-            block = map_volume_add(v, at[0], at[1], at[2]);
-        }
-        if (block < 0) {
-            return;
-        }
-        map_journal_keep(map, block, true);
-        job->change.blocks_new++;
-        v->flags[block] |= MAP_IS_NEW;
-    }
-    if (v->marked[block] != map->tick) {
-        v->marked[block] = map->tick;
-        map->seen[map->seen_count++] = block;
-    }
-}
-
-/* The places, in blocks, about the points of a row's pixels. */
-typedef struct row_places {
-    int32_t at[(RLF_IMAGE_SIZE_MAX / SPACING + 1) * MARGINS][3];
-    int32_t count;
-} row_places;
-
-static void add_places(const fuse_job *job, int32_t pixel, row_places *out)
-{
-    const rlf_map *map = job->map;
-    const rlf_mat3 *R = &job->R_camera_world;
-    const rlf_vec3 eye = job->T_world_camera.p;
-    const double scale = 1.0 / (map->def.voxel_m * MAP_SIDE);
-    const rlf_vec3 ray = {(double)map->ray_x[pixel], (double)map->ray_y[pixel], 1.0};
-    const double step = map->def.voxel_m / rlf_length(ray);
-    for (int32_t k = 0; k < MARGINS; k++) {
-        const rlf_vec3 p = rlf_scale(ray, (double)map->clean[pixel] + (double)margins[k] * step);
-        int32_t at[3];
-        bool is_in = true;
-        for (int32_t r = 0; r < 3; r++) {
-            const double world = R->m[0][r] * p.x + R->m[1][r] * p.y + R->m[2][r] * p.z +
-                                 (r == 0 ? eye.x : (r == 1 ? eye.y : eye.z));
-            is_in = is_in && world * scale > -32000.0 && world * scale < 32000.0;
-            at[r] = is_in ? floor_block(world * scale) : 0;
-        }
-        const int32_t before = out->count - MARGINS; /* the same of the pixel before */
-        if (is_in && (before < 0 || memcmp(at, out->at[before], sizeof(at)) != 0)) {
-            map_volume_soon(&map->volume, at[0], at[1], at[2]);
-            memcpy(out->at[out->count++], at, sizeof(at));
-        }
-    }
-}
-
-static void mark_all(fuse_job *job)
-{
-    rlf_map *map = job->map;
-    const int32_t width = map->pinhole.width, height = map->pinhole.height;
-    /* The pixels that look move by one from frame to frame, in an order that skips about. */
-    const int32_t phase = (int32_t)((map->frames * 7) % (SPACING * SPACING));
-    row_places places;
-    map->seen_count = 0;
-    for (int32_t y = phase / SPACING; y < height; y += SPACING) {
-        places.count = 0;
-        for (int32_t x = phase % SPACING; x < width; x += SPACING) {
-            if (map->planes[y * width + x].offset < 0.0f) {
-                add_places(job, y * width + x, &places);
-            }
-        }
-        for (int32_t i = 0; i < places.count; i++) {
-            mark(job, places.at[i]);
-        }
-    }
 }
 
 /* Frames in which each block that is seen has its turn. */
@@ -281,7 +183,7 @@ rlf_result rlf_map_integrate(rlf_map *map, const rlf_map_view *view, const rlf_p
     job.R_camera_world = rlf_quat_to_mat3(rlf_quat_conjugate(job.T_world_camera.q));
     map->tick++;
     map_view_prepare(map, view);
-    mark_all(&job);
+    map_mark(map, &job.T_world_camera, &job.change);
     job.turns = turns_for(map);
     job.view = view_make(map, view, job.turns);
     choose_seen(&job);

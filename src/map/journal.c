@@ -112,8 +112,8 @@ bool rlf_map_take_back(rlf_map *map)
     const bool was_whole = !j->has_moved;
     if (!was_whole) {
         rlf_log(RLF_LOG_WARNING,
-                "map: more changed than can be taken back: only the last %d "
-                "frames are; fence more often",
+                "map: the camera was placed wrong for longer than can be taken back: only the last "
+                "%d frames leave the map; if walls are doubled there, move the camera more slowly",
                 (int)(map->frames - j->frames));
     }
     restore(map);

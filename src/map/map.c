@@ -37,7 +37,7 @@ static rlf_result check(const rlf_map_def *def)
     if (!(def->voxel_m >= 0.002 && def->voxel_m <= 0.05)) {
         return out_of_range("voxel_m", "0.002..0.05 metres");
     }
-    if (def->memory_mb < 8 || def->memory_mb > 16384) {
+    if (def->memory_mb < 8 || def->memory_mb > RLF_MAP_MEMORY_MOST_MB) {
         return out_of_range("memory_mb", "8..16384 MiB");
     }
     if (!(def->truncation_sigmas >= 1.0 && def->truncation_sigmas <= 100.0)) {

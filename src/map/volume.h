@@ -103,7 +103,6 @@ struct rlf_map {
     int64_t frames;
     uint32_t tick; /* counts frames, also those that were taken back */
     bool is_full;
-    double reach2; /* squared distance beyond which blocks left, m^2 */
     map_view_planes out;
 };
 

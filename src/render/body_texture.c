@@ -3,8 +3,14 @@
 
 body_texture_kind body_texture_kind_of(rlf_shape_type type)
 {
-    return type == RLF_SHAPE_BOX || type == RLF_SHAPE_HULL ? BODY_TEXTURE_CRATE
-                                                           : BODY_TEXTURE_STRIPE;
+    switch (type) {
+    case RLF_SHAPE_BOX: return BODY_TEXTURE_CRATE;
+    case RLF_SHAPE_HULL: return BODY_TEXTURE_PLAIN;
+    case RLF_SHAPE_SPHERE:
+    case RLF_SHAPE_CAPSULE:
+    case RLF_SHAPE_CYLINDER: break;
+    }
+    return BODY_TEXTURE_STRIPE;
 }
 
 /* Noise 0..15 that is drawn out along x like wood grain. */
@@ -56,6 +62,17 @@ static int32_t stripe_brightness(int32_t x, int32_t y)
     return x / (n / 8) % 2 == 0 ? 255 : 150;
 }
 
+static int32_t brightness_of(body_texture_kind kind, int32_t x, int32_t y)
+{
+    switch (kind) {
+    case BODY_TEXTURE_CRATE: return crate_brightness(x, y);
+    case BODY_TEXTURE_STRIPE: return stripe_brightness(x, y);
+    case BODY_TEXTURE_PLAIN:
+    case BODY_TEXTURE_KINDS: break;
+    }
+    return 255;
+}
+
 static void fill_next_level(const uint8_t *from, int32_t from_size, uint8_t *to)
 {
     int32_t size = from_size / 2;
@@ -86,8 +103,7 @@ void body_texture_fill(body_texture_kind kind, uint8_t out[BODY_TEXTURE_BYTES])
     for (int32_t y = 0; y < n; y++) {
         for (int32_t x = 0; x < n; x++) {
             uint8_t *p = out + 4 * ((size_t)y * (size_t)n + (size_t)x);
-            int32_t b =
-                kind == BODY_TEXTURE_CRATE ? crate_brightness(x, y) : stripe_brightness(x, y);
+            const int32_t b = brightness_of(kind, x, y);
             p[0] = p[1] = p[2] = (uint8_t)b;
             p[3] = 255;
         }

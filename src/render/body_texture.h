@@ -1,4 +1,4 @@
-/* How bodies look: two procedural textures and the light, shared by both renderers.
+/* How bodies look: procedural textures and the light, shared by both renderers.
  *
  * A body's pixel is  sRGB = body colour * texture * light,  light = ambient + diffuse max(0, -n.l),
  * each as far as other bodies leave it, with the normal n and the light's direction l in the depth
@@ -23,9 +23,10 @@ enum {
 #define BODY_DIRECT_SHARE 0.85
 
 typedef enum body_texture_kind {
-    BODY_TEXTURE_CRATE = 0,  /* planks in a frame with a brace: boxes and hulls */
+    BODY_TEXTURE_CRATE = 0,  /* planks in a frame with a brace: boxes */
     BODY_TEXTURE_STRIPE = 1, /* beach ball: spheres, capsules, cylinders */
-    BODY_TEXTURE_KINDS = 2
+    BODY_TEXTURE_PLAIN = 2,  /* none: hulls, which have a form of their own */
+    BODY_TEXTURE_KINDS = 3
 } body_texture_kind;
 
 body_texture_kind body_texture_kind_of(rlf_shape_type type) RLF_INSIDE(body_texture_kind_of);

@@ -2,9 +2,9 @@
 #include "track/points.h"
 
 /* Four pixels lie on one surface when their depths are within so many sigma, or within the slope of
- * a surface at a low angle: so much of the depth. */
+ * a surface at a low angle, 80 degrees: so many times a pixel's width there. */
 #define SAME_SIGMAS 4.0
-#define SAME_SLOPE 0.01
+#define SAME_SLOPE 5.67
 
 typedef struct block {
     double z[4];
@@ -39,6 +39,7 @@ void track_points_row(const track_points *points, const rlf_rig *rig, const floa
                       const float *ray_y, const rlf_track_view *view, int32_t row)
 {
     const size_t width = (size_t)rig->depth.width;
+    const double slope = SAME_SLOPE / rlf_min(rig->depth.fx, rig->depth.fy);
     for (int32_t column = 0; column < points->width; column++) {
         const size_t to = (size_t)row * (size_t)points->width + (size_t)column;
         const size_t first = 4 * (size_t)row * width + 4 * (size_t)column;
@@ -50,7 +51,7 @@ void track_points_row(const track_points *points, const rlf_rig *rig, const floa
             continue;
         }
         const double z = 0.25 * b.sum, sigma = rlf_depth_noise_sigma(&rig->noise, z);
-        if (b.most - b.least > SAME_SIGMAS * sigma + SAME_SLOPE * z) {
+        if (b.most - b.least > SAME_SIGMAS * sigma + slope * z) {
             continue;
         }
         double x = 0.0, y = 0.0;

@@ -10,6 +10,14 @@ if(TARGET relief_app)
   set_tests_properties(app.live PROPERTIES LABELS app TIMEOUT 600)
 endif()
 
+# Fusing as a user meets it.
+if(TARGET relief_app)
+  add_test(NAME app.fuse
+           COMMAND sh ${PROJECT_SOURCE_DIR}/tests/app/test_fuse.sh $<TARGET_FILE:relief_app>
+                   ${CMAKE_CURRENT_BINARY_DIR}/app_fuse)
+  set_tests_properties(app.fuse PROPERTIES LABELS app TIMEOUT 600)
+endif()
+
 # Recording as a user meets it.
 if(TARGET relief_app AND RELIEF_WITH_MCAP)
   add_test(NAME app.record

@@ -118,6 +118,50 @@ static void a_prediction_is_what_is_there(void **state)
     rlf_map_destroy(&map);
 }
 
+/* Share of the pixels of a smaller camera whose depth is predicted to 4 mm, of 100. */
+static int32_t percent_predicted(rlf_map *map, const rlf_pose *T)
+{
+    rlf_prediction p;
+    const rlf_camera small = rlf_camera_decimate(&room.rig.depth, 4);
+    int32_t right = 0, all = 0;
+    assert_int_equal(rlf_map_predict(map, &small, T, &p), RLF_OK);
+    for (int32_t y = 1; y + 1 < small.height; y++) {
+        for (int32_t x = 1; x + 1 < small.width; x++) {
+            rlf_vec3 ray;
+            bool on_ball;
+            assert_true(rlf_camera_unproject(&small, x, y, &ray));
+            const double z = map_room_cast(&room, T->p, rlf_rotate(T->q, ray), &on_ball);
+            right += fabs((double)p.depth[y * small.width + x] - z) < 0.004;
+            all++;
+        }
+    }
+    return 100 * right / all;
+}
+
+/* The wall lies right on voxels of each of these sizes; a pixel is 11 mm and more. */
+static void one_frame_is_enough_with_voxels_finer_than_pixels(void **state)
+{
+    (void)state;
+    const double voxels[] = {0.004, 0.01, 0.05};
+    const double turns[] = {0.0, 0.6};
+    room.has_ball = false;
+    for (int32_t i = 0; i < 6; i++) {
+        rlf_map_def def = map_room_def(&room);
+        def.voxel_m = voxels[i % 3];
+        rlf_map *map = NULL;
+        assert_int_equal(rlf_map_create(&def, &map), RLF_OK);
+        const rlf_pose T = {.q = rlf_quat_from_rotation_vector(rlf_vec3_make(0, turns[i / 3], 0))};
+        const rlf_map_view view = map_room_look(&room, &T);
+        assert_int_equal(rlf_map_integrate(map, &view, &T, NULL), RLF_OK);
+        const int32_t percent = percent_predicted(map, &T);
+        if (percent < 90) {
+            fail_msg("voxel %g, turned by %g: %d %% predicted", def.voxel_m, turns[i / 3],
+                     (int)percent);
+        }
+        rlf_map_destroy(&map);
+    }
+}
+
 static void the_mesh_is_the_surface_and_has_no_cracks(void **state)
 {
     (void)state;
@@ -246,7 +290,7 @@ static void memory_is_bounded_and_the_farthest_leave(void **state)
     (void)state;
     rlf_map_def def = map_room_def(&room);
     def.memory_mb = 8;
-    def.voxel_m = 0.004;
+    def.voxel_m = 0.006;
     rlf_map *map = NULL;
     assert_int_equal(rlf_map_create(&def, &map), RLF_OK);
     rlf_map_change change;
@@ -266,6 +310,28 @@ static void memory_is_bounded_and_the_farthest_leave(void **state)
                      RLF_MAP_UNKNOWN);
     assert_int_not_equal(rlf_map_sample(map, rlf_vec3_make(3.4, 0, ROOM_WALL_Z)).state,
                          RLF_MAP_UNKNOWN);
+    rlf_map_destroy(&map);
+}
+
+/* What it leaves behind makes room for what the camera sees then. */
+static void a_frame_that_alone_fills_the_memory_does_not_stay(void **state)
+{
+    (void)state;
+    rlf_map_def def = map_room_def(&room);
+    def.memory_mb = 8;
+    def.voxel_m = 0.003;
+    rlf_map *map = NULL;
+    assert_int_equal(rlf_map_create(&def, &map), RLF_OK);
+    rlf_map_change change;
+    for (int32_t i = 0; i < 3; i++) {
+        rlf_pose T = map_room_pose(0);
+        T.p.x = 5.0 * i;
+        const rlf_map_view view = map_room_look(&room, &T);
+        assert_int_equal(rlf_map_integrate(map, &view, &T, &change), RLF_OK);
+        assert_true(rlf_map_get_status(map).block_count > 3000);
+        assert_true(change.blocks_new > 3000);
+        assert_true((change.blocks_evicted > 0) == (i > 0));
+    }
     rlf_map_destroy(&map);
 }
 
@@ -313,11 +379,13 @@ int main(void)
         cmocka_unit_test_setup(distances_and_gradients_are_those_of_the_room, set_up),
         cmocka_unit_test_setup(a_bent_lens_gives_the_same_room, set_up),
         cmocka_unit_test_setup(a_prediction_is_what_is_there, set_up),
+        cmocka_unit_test_setup(one_frame_is_enough_with_voxels_finer_than_pixels, set_up),
         cmocka_unit_test_setup(the_mesh_is_the_surface_and_has_no_cracks, set_up),
         cmocka_unit_test_setup(what_leaves_is_carved, set_up),
         cmocka_unit_test_setup(what_is_masked_is_not_fused, set_up),
         cmocka_unit_test_setup(a_bad_pose_is_refused_and_a_wrong_one_is_taken_back, set_up),
         cmocka_unit_test_setup(memory_is_bounded_and_the_farthest_leave, set_up),
+        cmocka_unit_test_setup(a_frame_that_alone_fills_the_memory_does_not_stay, set_up),
         cmocka_unit_test_setup(the_number_of_threads_changes_nothing, set_up),
         cmocka_unit_test_setup(a_picture_without_depth_does_no_harm, set_up),
     };

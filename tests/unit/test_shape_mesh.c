@@ -134,6 +134,12 @@ static void test_texture_levels(void **state)
         assert_float_equal(texture[last], mean, 3.0);
         assert_int_equal(texture[last + 3], 255);
     }
+    /* A hull is drawn in its body's colour, whatever made it. */
+    assert_int_equal(body_texture_kind_of(RLF_SHAPE_HULL), BODY_TEXTURE_PLAIN);
+    body_texture_fill(BODY_TEXTURE_PLAIN, texture);
+    for (size_t i = 0; i < BODY_TEXTURE_BYTES; i++) {
+        assert_int_equal(texture[i], 255);
+    }
 }
 
 static void test_texture_level_choice(void **state)

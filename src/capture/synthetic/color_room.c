@@ -65,8 +65,7 @@ typedef struct pixel {
     rlf_vec3 other_light;
 } pixel;
 
-static void add_sample(const job *j, const synth_candidates *candidates, const synth_ray *ray,
-                       pixel *p)
+static void add_sample(const job *j, synth_candidates *candidates, const synth_ray *ray, pixel *p)
 {
     const synth_hit sample = synth_cast(j->scene, candidates, ray);
     if (sample.part < 0) {
@@ -91,8 +90,7 @@ typedef struct corners {
     int32_t part[SYNTH_TILE + 1][SYNTH_TILE + 1];
 } corners;
 
-static void cast_corners(const job *j, const synth_candidates *candidates, synth_rect tile,
-                         corners *out)
+static void cast_corners(const job *j, synth_candidates *candidates, synth_rect tile, corners *out)
 {
     for (int32_t y = 0; y <= tile.y1 - tile.y0; y++) {
         for (int32_t x = 0; x <= tile.x1 - tile.x0; x++) {
@@ -113,7 +111,7 @@ static bool is_whole(const corners *c, int32_t x, int32_t y, int32_t part)
 /* Depth and floor light come from the pixel's middle; the colour is the mean of 2 x 2 samples, and
  * of 16 in different rows and columns where an edge runs through. What sees the same part shares
  * its light. */
-static void cast_pixel(const job *j, const synth_candidates *candidates, const corners *c,
+static void cast_pixel(const job *j, synth_candidates *candidates, const corners *c,
                        synth_rect tile, int32_t x, int32_t y)
 {
     synth_ray middle = synth_view_ray(&j->color->view, x, y);

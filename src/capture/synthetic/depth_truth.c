@@ -29,7 +29,7 @@ static void movers_at(int32_t x, int32_t y, const synth_canvas *canvas, synth_ca
     for (int32_t i = 0; i < canvas->stamp_count; i++) {
         const synth_rect *r = &canvas->stamps[i].rect;
         if (x >= r->x0 && x < r->x1 && y >= r->y0 && y < r->y1) {
-            out->index[out->count++] = i;
+            out->of[out->count++].part = i;
         }
     }
 }

@@ -153,11 +153,10 @@ static rlf_vec3 divide(rlf_vec3 a, rlf_vec3 b)
     return rlf_vec3_make(a.x / b.x, a.y / b.y, a.z / b.z);
 }
 
-bool synth_shape_intersect(const synth_shape *shape, const synth_ray *ray, synth_interval *out)
+bool synth_shape_meet(const synth_shape *shape, rlf_vec3 o, rlf_vec3 direction, synth_interval *out)
 {
-    rlf_quat inverse = rlf_quat_conjugate(shape->T_camera_shape.q);
-    rlf_vec3 o = rlf_transform_inverse(&shape->T_camera_shape, ray->origin);
-    rlf_vec3 d = rlf_rotate(inverse, ray->direction);
+    const rlf_quat inverse = rlf_quat_conjugate(shape->T_camera_shape.q);
+    const rlf_vec3 d = rlf_rotate(inverse, direction);
     switch (shape->type) {
     case SYNTH_HALF_SPACE: return intersect_half_space(o, d, out);
     case SYNTH_BOX: return intersect_box(shape->size, o, d, out);
@@ -165,6 +164,12 @@ bool synth_shape_intersect(const synth_shape *shape, const synth_ray *ray, synth
     case SYNTH_FRUSTUM: return intersect_frustum(shape, o, d, out);
     default: return intersect_sphere(1.0, divide(o, shape->size), divide(d, shape->size), out);
     }
+}
+
+bool synth_shape_intersect(const synth_shape *shape, const synth_ray *ray, synth_interval *out)
+{
+    const rlf_vec3 o = rlf_transform_inverse(&shape->T_camera_shape, ray->origin);
+    return synth_shape_meet(shape, o, ray->direction, out);
 }
 
 double synth_shape_bound(const synth_shape *shape, rlf_vec3 *out_centre)

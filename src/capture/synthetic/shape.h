@@ -35,6 +35,10 @@ typedef struct synth_ray {
 /* False when the ray's line misses the solid. near may be negative. */
 bool synth_shape_intersect(const synth_shape *shape, const synth_ray *ray, synth_interval *out);
 
+/* The same for rays that begin at one place, `o` in the shape's frame. */
+bool synth_shape_meet(const synth_shape *shape, rlf_vec3 o, rlf_vec3 direction,
+                      synth_interval *out);
+
 /* Outward unit normal at a point on (or very near) the surface. */
 rlf_vec3 synth_shape_normal(const synth_shape *shape, rlf_vec3 p);
 

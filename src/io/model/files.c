@@ -1,5 +1,6 @@
 /* Assimp's file hooks over whole files in memory. */
 #include "io/model/files.h"
+#include "io/model/beside.h"
 #include "io/model/import.h"
 
 #include <stdint.h>
@@ -77,7 +78,11 @@ static rlf_result check_mtl(const io_bytes *file)
 /* Another file than the model's own, checked as that one was. */
 static rlf_result read_other(io_model_files *files, const char *path, open_file *f)
 {
-    rlf_result result = io_file_read(path, files->left, "check the model", &f->buffer, &f->bytes);
+    char real[IO_PATH_MAX];
+    rlf_result result = io_model_beside(files->main->name, path, real);
+    if (result == RLF_OK) {
+        result = io_file_read(real, files->left, "check the model", &f->buffer, &f->bytes);
+    }
     if (result == RLF_OK) {
         files->left -= f->bytes.size;
         (void)snprintf(files->last, sizeof(files->last), "%s", path);

@@ -1,5 +1,6 @@
 /* Colour and texture of imported materials. */
 #include "io/model/import.h"
+#include "io/model/beside.h"
 #include "io/picture/picture.h"
 
 #include <stdlib.h>
@@ -74,7 +75,7 @@ static rlf_result decode_file(const io_model_draft *d, const char *name, io_pict
     if (d->is_alone) {
         return rlf_fail(RLF_ERROR_IO, "%s: other files are not read", name);
     }
-    char path[IO_PATH_MAX];
+    char path[IO_PATH_MAX], real[IO_PATH_MAX];
     char folder[IO_PATH_MAX] = ".";
     const char *slash = strrchr(d->name, '/');
     if (slash != NULL && (size_t)(slash - d->name) + 1 < IO_PATH_MAX) {
@@ -85,7 +86,10 @@ static rlf_result decode_file(const io_model_draft *d, const char *name, io_pict
     io_bytes bytes;
     rlf_result result = io_path_join(folder, name, path);
     if (result == RLF_OK) {
-        result = io_file_read(path, IO_MODEL_FILE_MAX, "put it beside the model", &buffer, &bytes);
+        result = io_model_beside(d->name, path, real);
+    }
+    if (result == RLF_OK) {
+        result = io_file_read(real, IO_MODEL_FILE_MAX, "put it beside the model", &buffer, &bytes);
     }
     if (result == RLF_OK) {
         result = io_picture_decode(&bytes, picture);

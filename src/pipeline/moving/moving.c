@@ -107,6 +107,7 @@ rlf_result moving_start(moving *m, const rlf_pipeline_def *def, const moving_fro
             from != NULL ? rlf_pose_invert(&from->T_now_before) : rlf_pose_identity();
         m->T_world_camera = rlf_pose_mul(&def->T_world_camera, &moved);
         rlf_tracker_reset(m->pose.tracker, &m->T_world_camera);
+        m->source = source_poses_begin(&m->T_world_camera, rlf_map_get_status(m->map).voxel_m);
     }
     if (result == RLF_OK && rlf_map_get_status(m->map).block_count > 0) {
         result = camera_pose_know(&m->pose, m->map);

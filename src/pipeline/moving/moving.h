@@ -9,6 +9,7 @@
 #include "pipeline/moving/camera_pose.h"
 #include "pipeline/moving/color_view.h"
 #include "pipeline/moving/room_planes.h"
+#include "pipeline/moving/source_pose.h"
 
 typedef struct moving {
     bool is_on;
@@ -19,8 +20,7 @@ typedef struct moving {
     rlf_map *map;
     bool owns_map;
     camera_pose pose;
-    rlf_pose T_world_source; /* of the source's world; from its first pose */
-    bool has_source, has_told_source;
+    source_poses source;
     color_view color;
     bool has_color; /* of this frame */
     room_planes planes;

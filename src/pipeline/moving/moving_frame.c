@@ -7,41 +7,14 @@
 
 #include <string.h>
 
-#define UNIT_ERROR 0.01 /* of a quaternion's length, squared */
-
 /* ---- pose ---- */
 
-static bool is_pose(const rlf_pose *T)
-{
-    const double length = T->q.x * T->q.x + T->q.y * T->q.y + T->q.z * T->q.z + T->q.w * T->q.w;
-    return rlf_is_finite(T->p.x) && rlf_is_finite(T->p.y) && rlf_is_finite(T->p.z) &&
-           rlf_is_finite(length) && length > 1.0 - UNIT_ERROR && length < 1.0 + UNIT_ERROR;
-}
-
-/* The source's pose, the first one being where the camera is taken to start. */
+/* The source's pose; where it has none the camera stays where it was, and is lost. */
 static void take_source_pose(moving *m)
 {
-    const rlf_frame *frame = m->frame;
-    const bool has = frame->has_pose && is_pose(&frame->T_world_camera);
     m->pose.last.T_world_camera = m->T_world_camera;
-    m->pose.last.health = has ? RLF_TRACK_GOOD : RLF_TRACK_LOST;
-    m->pose.may_fuse = has;
-    if (!has && !m->has_told_source) {
-        m->has_told_source = true;
-        rlf_log(RLF_LOG_WARNING, "poses of the source: frame %llu has %s; such frames are left out",
-                (unsigned long long)frame->sequence,
-                frame->has_pose ? "one that is no pose (not finite, or a quaternion that is not of "
-                                  "length 1)"
-                                : "none");
-    }
-    if (has && !m->has_source) {
-        const rlf_pose T_source_world = rlf_pose_invert(&frame->T_world_camera);
-        m->T_world_source = rlf_pose_mul(&m->T_world_camera, &T_source_world);
-        m->has_source = true;
-    }
-    if (has) {
-        m->pose.last.T_world_camera = rlf_pose_mul(&m->T_world_source, &frame->T_world_camera);
-    }
+    m->pose.may_fuse = source_poses_take(&m->source, m->frame, &m->pose.last.T_world_camera);
+    m->pose.last.health = m->pose.may_fuse ? RLF_TRACK_GOOD : RLF_TRACK_LOST;
 }
 
 /* One line when it changes. */
