@@ -72,8 +72,6 @@ static void an_error_names_the_part_and_the_cure(void **state)
         {"synthetic:room?", "''", "key=value"},
         {"synthetic:room?seed=1&", "''", "key=value"},
         {"synthetic:room?seed=-1", "'-1'", "whole number"},
-        {"synthetic:room?seed=1&seed=2", "seed", "given twice"},
-        {"synthetic:hands?view=side&hold=1&view=side", "view", "given twice"},
         {"synthetic:thesis?grasp=scoop", "grasp", "scene hands only"},
         {"synthetic:room?path=walk&view=side", "view", "scene hands only"},
         {"synthetic:room?seed=99999999999999999999", "'99999999999999999999'", "whole"},

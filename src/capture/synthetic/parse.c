@@ -269,19 +269,6 @@ static const char *set_value(piece key, piece value, rlf_synthetic_def *def, boo
     return set_hands(key, value, &def->hands, is_good);
 }
 
-/* Whether an option before this one has the same key. */
-static bool is_given(const char *options, piece key)
-{
-    for (const char *at = options; at < key.text;) {
-        const piece option = until(at, "&"), before = until(at, "=&");
-        if (before.length == key.length && memcmp(before.text, key.text, key.length) == 0) {
-            return true;
-        }
-        at += option.length + 1;
-    }
-    return false;
-}
-
 static rlf_result parse_option(const char *source, piece option, rlf_synthetic_def *def)
 {
     piece key = until(option.text, "=&");
@@ -301,10 +288,6 @@ static rlf_result parse_option(const char *source, piece option, rlf_synthetic_d
     if (def->scene != RLF_SYNTHETIC_HANDS && set_hands(key, value, &unused, &is_unused) != NULL) {
         return rlf_fail(RLF_ERROR_INVALID, "%s: %.*s is for scene hands only", source,
                         (int)key.length, key.text);
-    }
-    if (is_given(strchr(source, '?') + 1, key)) {
-        return rlf_fail(RLF_ERROR_INVALID, "%s: %.*s is given twice", source, (int)key.length,
-                        key.text);
     }
     if (!is_good) {
         return rlf_fail(RLF_ERROR_INVALID, "%s: %.*s is '%.*s'; use %s", source, (int)key.length,
