@@ -3,6 +3,8 @@
 
 #include <stdio.h>
 
+#define STRIDE_MAX ((ptrdiff_t)1 << 30) /* bytes: no picture's, but a wrong number's */
+
 rlf_result pose_check(const rlf_pose *T, const char *who, const char *field)
 {
     const rlf_quat q = T->q;
@@ -50,6 +52,11 @@ rlf_result rig_check(const rlf_rig *rig, const char *who)
     return result;
 }
 
+static bool is_stride(ptrdiff_t stride, ptrdiff_t least)
+{
+    return stride >= least && stride <= STRIDE_MAX;
+}
+
 static rlf_result fail_stride(const rlf_frame *frame, const char *who, const char *field,
                               ptrdiff_t stride, ptrdiff_t least, int unit)
 {
@@ -67,7 +74,7 @@ static rlf_result check_depth(const rlf_frame *frame, const rlf_rig *rig, const 
     }
     const int sample = frame->depth_u16 != NULL ? 2 : 4;
     const ptrdiff_t least = sample * (ptrdiff_t)rig->depth.width;
-    if (frame->depth_stride < least || frame->depth_stride % sample != 0) {
+    if (!is_stride(frame->depth_stride, least) || frame->depth_stride % sample != 0) {
         return fail_stride(frame, who, "depth_stride", frame->depth_stride, least, sample);
     }
     const double units = frame->depth_units_per_metre;
@@ -76,14 +83,14 @@ static rlf_result check_depth(const rlf_frame *frame, const rlf_rig *rig, const 
                         "%s: frame %llu: depth_units_per_metre is %g; use 1000 for mm", who,
                         (unsigned long long)frame->sequence, units);
     }
-    if (frame->confidence != NULL && frame->confidence_stride < rig->depth.width) {
+    if (frame->confidence != NULL && !is_stride(frame->confidence_stride, rig->depth.width)) {
         return fail_stride(frame, who, "confidence_stride", frame->confidence_stride,
                            rig->depth.width, 1);
     }
     return RLF_OK;
 }
 
-static rlf_result check_color(const rlf_frame *frame, const char *who)
+rlf_result color_check(const rlf_frame *frame, const char *who)
 {
     const rlf_image_rgba8 *color = &frame->color;
     if (color->data == NULL) {
@@ -97,7 +104,7 @@ static rlf_result check_color(const rlf_frame *frame, const char *who)
                         RLF_IMAGE_SIZE_MAX);
     }
     const ptrdiff_t least = 4 * (ptrdiff_t)color->width;
-    return color->stride >= least
+    return is_stride(color->stride, least)
                ? RLF_OK
                : fail_stride(frame, who, "color.stride", color->stride, least, 1);
 }
@@ -106,7 +113,7 @@ rlf_result frame_check(const rlf_frame *frame, const rlf_rig *rig, const char *w
 {
     rlf_result result = check_depth(frame, rig, who);
     if (result == RLF_OK) {
-        result = check_color(frame, who);
+        result = color_check(frame, who);
     }
     if (result == RLF_OK && frame->has_pose) {
         char field[64];

@@ -9,7 +9,9 @@
 rlf_result pose_check(const rlf_pose *T, const char *who, const char *field);
 /* The cameras that it has, their transform, range and noise. */
 rlf_result rig_check(const rlf_rig *rig, const char *who);
-/* Planes, strides, units and pose, against the rig whose depth camera's size they have. */
+/* Size and stride of its colour picture, if it has one. */
+rlf_result color_check(const rlf_frame *frame, const char *who);
+/* All planes, strides, units and the pose, against the rig whose depth camera's size they have. */
 rlf_result frame_check(const rlf_frame *frame, const rlf_rig *rig, const char *who);
 
 #endif

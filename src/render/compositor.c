@@ -91,10 +91,7 @@ rlf_result rlf_compositor_render(rlf_compositor *compositor, const rlf_render_in
         !RLF_ASSERT((int)input->view >= 0 && input->view < RLF_VIEW_COUNT)) {
         return RLF_ERROR_INVALID;
     }
-    rlf_result result = RLF_OK;
-    if (input->frame->rig != NULL) {
-        result = frame_check(input->frame, input->frame->rig, "compositor");
-    }
+    rlf_result result = color_check(input->frame, "compositor"); /* depth is the surface's */
     if (result == RLF_OK) {
         result = pose_check(&input->T_world_camera, "compositor", "T_world_camera");
     }
