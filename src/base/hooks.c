@@ -1,6 +1,9 @@
-/* Log, assert and allocator hooks: the only global state of the library. */
+/* Log, assert and allocator hooks, the only global state of the library, and how failures are told.
+ */
 #define _DEFAULT_SOURCE
 #include "relief/base.h"
+
+#include "base/error_line.h"
 #include "base/line.h"
 
 #include <stdarg.h>
@@ -97,11 +100,29 @@ void rlf_set_assert(rlf_assert_fn fn, void *context)
 
 bool rlf_assert_failed(const char *condition, const char *file, int line)
 {
-    rlf_fail(RLF_ERROR_INVALID, "%s:%d: the call breaks its contract: %s", file, line, condition);
+    char text[RLF_ERROR_LINE_SIZE];
+    (void)snprintf(text, sizeof(text), "%s:%d: the call breaks its contract: %s", file, line,
+                   condition);
+    rlf_error_line_set(text);
     if (assert_fn(assert_context, condition, file, line)) {
         abort();
     }
     return false;
+}
+
+rlf_result rlf_fail(rlf_result result, const char *format, ...)
+{
+    if (!RLF_ASSERT(format != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    /* Formatted into a copy first: an argument may be the old error line. */
+    char text[RLF_ERROR_LINE_SIZE];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof(text), format, arguments);
+    va_end(arguments);
+    rlf_error_line_set(text);
+    return result;
 }
 
 void rlf_set_allocator(rlf_alloc_fn alloc, rlf_free_fn release, void *context)

@@ -1,14 +1,12 @@
 /* Result names and the calling thread's error line. */
 #include "relief/base.h"
+
+#include "base/error_line.h"
 #include "base/line.h"
 
-#include <stdarg.h>
 #include <stdio.h>
-#include <string.h>
 
-#define ERROR_TEXT_SIZE 1024
-
-static _Thread_local char error_text[ERROR_TEXT_SIZE];
+static _Thread_local char error_text[RLF_ERROR_LINE_SIZE];
 
 const char *rlf_result_name(rlf_result result)
 {
@@ -27,20 +25,10 @@ const char *rlf_result_name(rlf_result result)
     return "unknown result";
 }
 
-rlf_result rlf_fail(rlf_result result, const char *format, ...)
+void rlf_error_line_set(const char *text)
 {
-    if (!RLF_ASSERT(format != NULL)) {
-        return RLF_ERROR_INVALID;
-    }
-    /* Formatted into a copy first: an argument may be the old error line. */
-    char text[ERROR_TEXT_SIZE];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof(text), format, arguments);
-    va_end(arguments);
-    rlf_line_clean(text);
-    memcpy(error_text, text, sizeof(error_text));
-    return result;
+    (void)snprintf(error_text, sizeof(error_text), "%s", text);
+    rlf_line_clean(error_text);
 }
 
 const char *rlf_error_text(void)

@@ -9,5 +9,7 @@
 rlf_result pose_check(const rlf_pose *T, const char *who, const char *field);
 /* The cameras that it has, their transform, range and noise. */
 rlf_result rig_check(const rlf_rig *rig, const char *who);
+/* frame_check.c: size and stride of its colour picture, if it has one. */
+rlf_result color_check(const rlf_frame *frame, const char *who);
 
 #endif

@@ -6,6 +6,7 @@
 
 #include <stdio.h>
 
+#define STRIDE_MAX ((ptrdiff_t)1 << 30) /* bytes: no picture's, but a wrong number's */
 #define UNITS_MAX 1e6 /* counts a metre: a micrometre each */
 
 static unsigned long long number_of(const rlf_frame *frame)
@@ -16,7 +17,7 @@ static unsigned long long number_of(const rlf_frame *frame)
 static rlf_result check_stride(const rlf_frame *frame, const char *who, const char *field,
                                ptrdiff_t stride, ptrdiff_t least, int unit)
 {
-    if (stride >= least && stride % unit == 0) {
+    if (stride >= least && stride <= STRIDE_MAX && stride % unit == 0) {
         return RLF_OK;
     }
     return rlf_fail(RLF_ERROR_INVALID,
@@ -47,18 +48,11 @@ static rlf_result check_depth(const rlf_rig *rig, const rlf_frame *f, const char
     return result;
 }
 
-static rlf_result check_color(const rlf_rig *rig, const rlf_frame *f, const char *who)
+rlf_result color_check(const rlf_frame *f, const char *who)
 {
     const rlf_image_rgba8 *c = &f->color;
     if (c->data == NULL) {
         return RLF_OK;
-    }
-    if (rig->has_color && (c->width != rig->color.width || c->height != rig->color.height)) {
-        return rlf_fail(RLF_ERROR_INVALID,
-                        "%s: frame %llu: its colour is %d x %d pixels, and the colour camera was "
-                        "%d x %d when it was opened: open it again",
-                        who, number_of(f), (int)c->width, (int)c->height, (int)rig->color.width,
-                        (int)rig->color.height);
     }
     if (c->width < 1 || c->height < 1 || c->width > RLF_IMAGE_SIZE_MAX ||
         c->height > RLF_IMAGE_SIZE_MAX) {
@@ -67,6 +61,20 @@ static rlf_result check_color(const rlf_rig *rig, const rlf_frame *f, const char
                         number_of(f), (int)c->width, (int)c->height, RLF_IMAGE_SIZE_MAX);
     }
     return check_stride(f, who, "color.stride", c->stride, 4 * (ptrdiff_t)c->width, 1);
+}
+
+static rlf_result check_color(const rlf_rig *rig, const rlf_frame *f, const char *who)
+{
+    const rlf_image_rgba8 *c = &f->color;
+    if (c->data != NULL && rig->has_color &&
+        (c->width != rig->color.width || c->height != rig->color.height)) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "%s: frame %llu: its colour is %d x %d pixels, and the colour camera was "
+                        "%d x %d when it was opened: open it again",
+                        who, number_of(f), (int)c->width, (int)c->height, (int)rig->color.width,
+                        (int)rig->color.height);
+    }
+    return color_check(f, who);
 }
 
 static rlf_result check_times(const rlf_frame *f, const char *who)

@@ -91,14 +91,9 @@ rlf_result rlf_compositor_render(rlf_compositor *compositor, const rlf_render_in
         !RLF_ASSERT((int)input->view >= 0 && input->view < RLF_VIEW_COUNT)) {
         return RLF_ERROR_INVALID;
     }
-    const rlf_image_rgba8 *color = &input->frame->color;
-    if (color->data != NULL &&
-        (color->width < 1 || color->height < 1 || color->stride < 4 * (ptrdiff_t)color->width)) {
-        return rlf_fail(RLF_ERROR_INVALID,
-                        "compositor: a colour picture of %d x %d pixels has rows of %lld bytes: use 4 "
-                        "bytes a pixel or more",
-                        (int)color->width, (int)color->height, (long long)color->stride);
+    rlf_result result = color_check(input->frame, "compositor"); /* depth is the surface's */
+    if (result == RLF_OK) {
+        result = pose_check(&input->T_world_camera, "compositor", "T_world_camera");
     }
-    const rlf_result result = pose_check(&input->T_world_camera, "compositor", "T_world_camera");
     return result == RLF_OK ? compositor->methods.render(compositor->self, input, out) : result;
 }

@@ -5,6 +5,7 @@
 # Every number below `path`, a field of struct `root` that is of type `type`.
 function write_fields(root, type, path,    list, count, i, words, kind, name, size, k, dot, n, names) {
     if (type in is_enum) { kind = "FIELD_ENUM" }
+    else if (type == "ptrdiff_t") { kind = "FIELD_INT64_T" }
     else if (type ~ /^(double|float|int32_t|int64_t)$/) { kind = "FIELD_" toupper(type) }
     if (kind != "") {
         printf "    {\"%s\", offsetof(%s, %s), %s},\n", path, root, path, kind

@@ -78,7 +78,7 @@ static rlf_result try_frame(const void *value)
     rlf_render_output picture;
     input.frame = &tried_frame;
     const rlf_result drawn = rlf_compositor_render(valid.compositor, &input, &picture);
-    return processed != result || drawn != result ? RLF_ERROR_DEVICE : result;
+    return processed != result || (drawn != result && drawn != RLF_OK) ? RLF_ERROR_DEVICE : result;
 }
 
 static rlf_result try_reconstruct(const void *def)

@@ -107,9 +107,10 @@ rlf_result synth_def_check(const rlf_synthetic_def *def)
     bool is_size = def->color_width >= 1 && def->color_width <= COLOR_SIZE_MAX &&
                    def->color_height >= 1 && def->color_height <= COLOR_SIZE_MAX;
     if (def->enable_color && !is_size) {
-        return rlf_fail(RLF_ERROR_INVALID,
-                        "synthetic: color_width x color_height is %d x %d; use 1 to %d each",
-                        (int)def->color_width, (int)def->color_height, COLOR_SIZE_MAX);
+        return rlf_fail(
+            RLF_ERROR_INVALID,
+            "synthetic: color size, color_width x color_height, is %d x %d; use 1 to %d each",
+            (int)def->color_width, (int)def->color_height, COLOR_SIZE_MAX);
     }
     if ((int)def->push < 0 || def->push > RLF_SYNTHETIC_PUSH_CARRY) {
         return rlf_fail(RLF_ERROR_INVALID, "synthetic: push is %d; use an rlf_synthetic_push",
