@@ -156,7 +156,8 @@ static rlf_result measure_scale(const measure_options *o, int32_t scale, measure
     session_close(&s);
     if (result == RLF_OK && out->width == 0 && !command_interrupted) {
         return rlf_fail(RLF_ERROR_INVALID,
-                        "%s: too few frames with depth; the first 5 are needed for the background", o->source);
+                        "%s: too few frames with depth; the first 5 are needed for the background",
+                        o->source);
     }
     return result;
 }

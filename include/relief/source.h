@@ -103,8 +103,8 @@ RLF_API const rlf_source_info *rlf_source_get_info(const rlf_source *source);
  * Thread-safety: one thread at a time. */
 RLF_API rlf_result rlf_source_next(rlf_source *source, rlf_frame *out_frame);
 /* Where depth is expected, metres; default the rig's range. When most depth of the first frame that
- * has any is outside, one warning asks whether its unit is right. min_m = max_m: it is not asked. Thread-safety: as
- * next. */
+ * has any is outside, one warning asks whether its unit is right. min_m = max_m: it is not asked.
+ * Thread-safety: as next. */
 RLF_API void rlf_source_expect_range(rlf_source *source, double min_m, double max_m);
 /* The first frame is the next one again. RLF_ERROR_UNSUPPORTED when the source cannot, as a
  * camera. */

@@ -87,7 +87,8 @@ static void tell(const range_watch *watch, const char *name, const rlf_frame *fr
 
 void range_watch_see(range_watch *watch, const char *name, const rlf_frame *frame)
 {
-    if (watch->is_done || !(watch->max_m > watch->min_m) || (frame->depth_u16 == NULL && frame->depth_f32 == NULL)) {
+    const bool has_depth = frame->depth_u16 != NULL || frame->depth_f32 != NULL;
+    if (watch->is_done || !(watch->max_m > watch->min_m) || !has_depth) {
         return;
     }
     static const int32_t step = 2; /* every other row is enough */

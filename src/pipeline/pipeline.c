@@ -100,8 +100,9 @@ static void make_grid(rlf_pipeline *p, rlf_grid *out)
 }
 
 /* Bodies wait for a camera that was away, that shows no depth, or that does not know where it is:
- * what they would have met meanwhile nobody saw. So they do while the view as a whole seems to move: a room that swings
- * would throw them. What was seen alone decides, so that a recording gives the same bodies. */
+ * what they would have met meanwhile nobody saw. So they do while the view as a whole seems to
+ * move: a room that swings would throw them. What was seen alone decides, so that a recording gives
+ * the same bodies. */
 static double time_to_advance(const rlf_pipeline *p, double gap_s)
 {
     const double rate = rlf_source_get_info(p->def.source)->frames_per_second;

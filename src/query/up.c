@@ -23,8 +23,6 @@ static const double least_share = 0.03;  /* of normals along up: fewer are chanc
 static const double doubted_roll = 0.15; /* of the roll's odds that confidence believes */
 static const double least_level = 0.996; /* cos 5 degrees: from the picture's up, or floors' */
 static const double level_share = 0.1;   /* of normals along an axis: a plane, and no clutter */
-static const double square_share = 0.05;    /* of normals square to it */
-static const double least_standing = 0.001; /* of the pixels: something stands there */
 static const double alone = 0.65;           /* confidence in what nothing agrees with */
 
 /* Cameras stand upright, or nearly so, far more often than not. The nearer to straight down one
@@ -112,7 +110,7 @@ static bool is_level(const guess *g)
  * things must stand on it. */
 static double bound_of(const guess *g)
 {
-    return has_square(g, square_share) || g->evidence.standing > least_standing ? 1.0 : alone;
+    return has_square(g, least_share) || g->evidence.standing > 0.0 ? 1.0 : alone;
 }
 
 /* The share of a guess among all. */

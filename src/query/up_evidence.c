@@ -5,7 +5,6 @@
 
 enum { BINS = 256 };
 
-static const double most_off = 0.087;      /* sin 5 degrees: of what is square to up */
 static const double bin_m = 0.04;          /* of heights */
 static const double widest_m = 1.0;        /* that a small thing hides of what it stands on */
 static const double least_height_m = 0.02; /* of a thing */
@@ -172,7 +171,7 @@ rlf_up_evidence rlf_up_ask(const rlf_up_samples *samples, rlf_vec3 up)
         e.up += c > RLF_UP_ALONG;
         e.down += -c > RLF_UP_ALONG;
         e.across += c < RLF_UP_ACROSS && -c < RLF_UP_ACROSS;
-        e.square += c < most_off && -c < most_off;
+        e.square += c < RLF_UP_ACROSS / 3 && -c < RLF_UP_ACROSS / 3;
     }
     if (samples->count > 0) {
         e.likelihood /= samples->count;

@@ -95,7 +95,7 @@ static void klg_without_a_calibration_warns(void **state)
     assert_non_null(strstr(log.last, "camera=FILE"));
     /* Its pictures are smaller than that. */
     rlf_frame frame;
-    assert_int_equal(rlf_source_next(source, &frame), RLF_END);
+    assert_int_equal(rlf_source_next(source, &frame), RLF_ERROR_FORMAT);
     assert_int_equal(rlf_source_get_status(source).damaged, LOG_SAMPLE_FRAMES);
     rlf_source_destroy(&source);
     rlf_set_log(NULL, NULL);
@@ -208,7 +208,7 @@ static void packed_depth_of_another_size_is_refused(void **state)
     save("clip.klg", b);
     rlf_source *source = open_file(test_path("clip.klg"));
     rlf_frame frame;
-    assert_int_equal(rlf_source_next(source, &frame), RLF_END);
+    assert_int_equal(rlf_source_next(source, &frame), RLF_ERROR_FORMAT);
     assert_int_equal(rlf_source_get_status(source).damaged, 1);
     assert_non_null(strstr(rlf_error_text(), "another size than 256 bytes"));
     rlf_source_destroy(&source);

@@ -28,7 +28,8 @@ rlf_result io_layout_read(const char *folder, io_layout *out);
 /* Reads the poses that lie beside the pictures, if there are any. */
 rlf_result io_layout_read_poses(const char *folder, io_layout *layout);
 /* The camera when there is no camera.json: intrinsic.json, else what the data set is known to have
- * used, else what cameras with such pictures usually have, with a warning. `width`, `height`: of the depth pictures. */
+ * used, else what cameras with such pictures usually have, with a warning. `width`, `height`: of
+ * the depth pictures. */
 rlf_result io_layout_camera(const char *folder, io_layout *layout, int32_t width, int32_t height,
                             rlf_camera *out);
 void io_layout_free(io_layout *layout);
