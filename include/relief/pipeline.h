@@ -39,7 +39,7 @@ typedef struct rlf_scene {
     rlf_body_def *bodies; /* owned when made by rlf_scene_create or rlf_scene_load, with their
                              hulls, of which each is that of bodies in a row */
     int32_t body_count;
-    rlf_border border;         /* what is beyond the camera's view; default open */
+    rlf_border border;         /* what is beyond the camera's view; default extend */
     rlf_known_def *known;      /* models of real things; owned as the bodies are */
     int32_t known_count;       /* at most RLF_KNOWN_MAX */
     struct rlf_model **models; /* what the bodies' looks borrow; owned as the bodies are */

@@ -18,10 +18,10 @@ struct rlf_map; /* map.h */
  * --------------------------------------------------------- */
 
 /* What is where the camera sees nothing: beyond its view, and in the ring of missing pixels at the
- * border of its image. OPEN: nothing, bodies leave the room there. EXTEND: the outermost planes go
- * on, floor and walls, also behind what hides them; and for 25 cm what the border cuts, or a ring
- * that is no wider than an eighth of the image. */
-typedef enum rlf_border { RLF_BORDER_OPEN = 0, RLF_BORDER_EXTEND = 1 } rlf_border;
+ * border of its image. EXTEND, the default: the outermost planes go on, floor and walls, also
+ * behind what hides them; and for 25 cm what the border cuts, or a ring that is no wider than an
+ * eighth of the image. OPEN: nothing, bodies leave the room there. */
+typedef enum rlf_border { RLF_BORDER_EXTEND = 0, RLF_BORDER_OPEN = 1 } rlf_border;
 
 /* One sheet of the organised grid, in the grid's frame. Planes are width*height, row-major. */
 typedef struct rlf_grid_sheet {
@@ -33,7 +33,8 @@ typedef struct rlf_grid_sheet {
                                  endlessly thick where `thickness` is NULL, a sheet elsewhere */
     const int32_t *label;     /* region label; may be NULL */
     const uint8_t *mask;      /* only pixels with mask != 0 belong to the sheet; NULL = all */
-    rlf_border border;        /* beyond the view; the world's def may ask for more */
+    rlf_border border;        /* of the background, beyond the view; default extend, unless the
+                                 world's def says open */
     int64_t version; /* while it and `depth` stay the same, so do all planes; 0 = not known */
 } rlf_grid_sheet;
 
@@ -87,7 +88,7 @@ typedef struct rlf_world_def {
     double max_speed;          /* m/s; bodies are clamped to it. default 50 */
     rlf_aabb bounds;           /* bodies whose centre leaves it are removed from the simulation
                                   (Algorithm 1: "while x(t) is within the scene"); default +-20 m */
-    rlf_border border;         /* live: what the background is beyond the view; default open */
+    rlf_border border;         /* live: what the background is beyond the view; default extend */
     bool enable_grab; /* live: bodies between fingers, or hands, that close on them are held
                          until these open; default false */
     rlf_pool *pool;   /* borrowed; NULL = one thread */

@@ -14,6 +14,8 @@
 #define SOFT_A2 (SOFT_OMEGA_H * SOFT_A1)
 /* Overlaps are pushed apart no faster than this, m/s. */
 #define PUSH_SPEED_MAX 3.0
+/* Faster than that, what has no restitution meets hard, m/s. */
+#define HARD_SPEED 0.1
 /* Overlap left alone, as a share of the smaller body's radius, so that contacts persist. */
 #define SLOP_SHARE 0.002
 
@@ -99,8 +101,16 @@ static void set_vec(rlf_lane_vec *of, int32_t lane, rlf_vec3 v)
     of->z[lane] = (float)v.z;
 }
 
-/* Returns whether the overlap is pushed apart at full speed. */
-static bool set_targets(rlf_lane_point *p, int32_t lane, const phys_point *c, double slop, double h)
+/* Whether a blow may be in the group that no impact has answered. */
+static bool is_hard(const phys_group *g)
+{
+    return g->restitution <= 0.0 && g->speed > HARD_SPEED;
+}
+
+/* `softness` is 0 where a spring would give way to a blow. Returns whether the overlap is pushed
+ * apart at full speed. */
+static bool set_targets(rlf_lane_point *p, int32_t lane, const phys_point *c, double slop, double h,
+                        float softness)
 {
     float rest = 0.0f, push = 0.0f, ease = 0.0f;
     if (c->separation > 0.0) { /* may close the gap, not more */
@@ -108,7 +118,7 @@ static bool set_targets(rlf_lane_point *p, int32_t lane, const phys_point *c, do
     } else if (!c->is_impacted) {
         double overlap = rlf_min(c->separation + slop, 0.0);
         push = (float)rlf_min(-SOFT_OMEGA_H / SOFT_A1 / h * overlap, PUSH_SPEED_MAX);
-        ease = (float)(1.0 / (1.0 + SOFT_A2));
+        ease = softness;
     }
     p->target[0][lane] = rest;
     p->target[1][lane] = push;
@@ -125,6 +135,7 @@ static void add_points(phys_batch *batch, const phys_group *g, int32_t lane, dou
 {
     double radius = g->a->shape.radius;
     double slop = SLOP_SHARE * (g->b != NULL ? rlf_min(radius, g->b->shape.radius) : radius);
+    float softness = is_hard(g) ? 0.0f : (float)(1.0 / (1.0 + SOFT_A2));
     rlf_vec3 tangent = {0, 0, 0};
     for (int32_t i = 0; i < g->point_count; i++) {
         rlf_lane_point *p = &batch->lanes.points[i];
@@ -138,7 +149,7 @@ static void add_points(phys_batch *batch, const phys_group *g, int32_t lane, dou
         set_vec(&p->tangent, lane, tangent);
         set_vec(&p->r_a, lane, near->r_a);
         set_vec(&p->r_b, lane, near->r_b);
-        batch->is_deep |= set_targets(p, lane, near, slop, h) && g->b != NULL;
+        batch->is_deep |= set_targets(p, lane, near, slop, h, softness) && g->b != NULL;
         p->friction[lane] = (float)g->friction;
         for (int32_t row = 0; row < 3; row++) {
             p->impulse[row][lane] = impulses[0] > 0.0 ? (float)impulses[row] : 0.0f;
@@ -146,19 +157,20 @@ static void add_points(phys_batch *batch, const phys_group *g, int32_t lane, dou
     }
 }
 
-static float set_inertia(rlf_lane_mat *inertia, int32_t lane, const phys_body *body)
+static float set_inertia(rlf_lane_mat *inertia, int32_t lane, const phys_body *body,
+                         float lightness)
 {
     if (!phys_body_is_moving(body)) {
         return 0.0f;
     }
     const rlf_mat3 *m = &body->inverse_inertia_world;
-    inertia->xx[lane] = (float)m->m[0][0];
-    inertia->xy[lane] = (float)m->m[0][1];
-    inertia->xz[lane] = (float)m->m[0][2];
-    inertia->yy[lane] = (float)m->m[1][1];
-    inertia->yz[lane] = (float)m->m[1][2];
-    inertia->zz[lane] = (float)m->m[2][2];
-    return (float)body->inverse_mass;
+    inertia->xx[lane] = (float)m->m[0][0] * lightness;
+    inertia->xy[lane] = (float)m->m[0][1] * lightness;
+    inertia->xz[lane] = (float)m->m[0][2] * lightness;
+    inertia->yy[lane] = (float)m->m[1][1] * lightness;
+    inertia->yz[lane] = (float)m->m[1][2] * lightness;
+    inertia->zz[lane] = (float)m->m[2][2] * lightness;
+    return (float)body->inverse_mass * lightness;
 }
 
 static void add_group(const rlf_world *world, phys_batch *batch, const phys_group *g, double h)
@@ -168,11 +180,14 @@ static void add_group(const rlf_world *world, phys_batch *batch, const phys_grou
     batch->groups[lane] = g;
     batch->resists_rolling = batch->resists_rolling || g->a->rolling_resistance > 0.0 ||
                              (g->b != NULL && g->b->rolling_resistance > 0.0);
+    batch->is_hard = batch->is_hard || is_hard(g);
     lanes->a[lane] = index_of(world, g->a);
     lanes->b[lane] = g->b != NULL ? index_of(world, g->b) : lanes->a[lane];
-    lanes->inverse_mass_a[lane] = set_inertia(&lanes->inverse_inertia_a, lane, g->a);
+    lanes->inverse_mass_a[lane] =
+        set_inertia(&lanes->inverse_inertia_a, lane, g->a, world->lightness[lanes->a[lane]]);
     if (g->b != NULL) {
-        lanes->inverse_mass_b[lane] = set_inertia(&lanes->inverse_inertia_b, lane, g->b);
+        lanes->inverse_mass_b[lane] =
+            set_inertia(&lanes->inverse_inertia_b, lane, g->b, world->lightness[lanes->b[lane]]);
     }
     add_points(batch, g, lane, h);
 }

@@ -7,6 +7,8 @@
 #include "physics/solver.h"
 
 #define SOLVE_PASSES 6
+/* A blow that is not taken out in full leaves a turn: the smaller the body, the faster. */
+#define HARD_SOLVE_PASSES 40
 #define RELAX_PASSES 2
 /* Where much is pushed apart at once, speeds add up through all of it: they are taken out again. */
 #define DEEP_RELAX_PASSES 40
@@ -85,6 +87,12 @@ static void load_speed(rlf_world *world, int32_t i)
     world->speeds[i] = (rlf_lane_speed){{(float)body->v.x, (float)body->v.y, (float)body->v.z,
                                          (float)body->w.x, (float)body->w.y, (float)body->w.z}};
     world->old_speeds[i] = world->speeds[i];
+}
+
+static void start_speed(rlf_world *world, int32_t i)
+{
+    load_speed(world, i);
+    world->lightness[i] = 1.0f;
 }
 
 /* Adds what has changed since it was loaded: what nothing touches keeps all its digits. The old
@@ -299,6 +307,16 @@ static void mark_pressed(const phys_batch *batch)
     }
 }
 
+static int32_t solve_passes(const phys_batch *batches, int32_t count)
+{
+    for (int32_t k = 0; k < count; k++) {
+        if (batches[k].is_hard) {
+            return HARD_SOLVE_PASSES;
+        }
+    }
+    return SOLVE_PASSES;
+}
+
 static int32_t relax_passes(const phys_batch *batches, int32_t count)
 {
     for (int32_t k = 0; k < count; k++) {
@@ -324,12 +342,13 @@ void phys_island_substep(rlf_world *world, const phys_island *island, const grid
     for (int32_t i = begin; i < end; i++) {
         fetch_to_accelerate(next_body(world, island, i));
         accelerate(world, &world->bodies[bodies[i]], h);
-        load_speed(world, bodies[i]);
+        start_speed(world, bodies[i]);
     }
+    phys_bear_burdens(world, groups, count);
     phys_batch *batches = phys_batches_of(world, island);
     count = phys_batches_make(world, island, groups, count, h);
     phys_batches_warm_start(world, batches, count);
-    phys_batches_solve(world, batches, count, true, SOLVE_PASSES);
+    phys_batches_solve(world, batches, count, true, solve_passes(batches, count));
     for (int32_t k = 0; k < count; k++) {
         mark_pressed(&batches[k]);
     }

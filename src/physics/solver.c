@@ -122,9 +122,11 @@ static rlf_vec3 spin_of(const rlf_lane_speed *speed)
     return rlf_vec3_make(speed->of[3], speed->of[4], speed->of[5]);
 }
 
-static void turn_body(const phys_body *body, rlf_lane_speed *speed, rlf_vec3 impulse)
+static void turn_body(const rlf_world *world, const phys_body *body, rlf_lane_speed *speed,
+                      rlf_vec3 impulse)
 {
-    rlf_vec3 change = rlf_mat3_mul_vec(&body->inverse_inertia_world, impulse);
+    double lightness = (double)world->lightness[body - world->bodies];
+    rlf_vec3 change = rlf_mat3_mul_vec(&body->inverse_inertia_world, rlf_scale(impulse, lightness));
     speed->of[3] += (float)change.x;
     speed->of[4] += (float)change.y;
     speed->of[5] += (float)change.z;
@@ -136,10 +138,10 @@ static void turn_sides(rlf_world *world, const phys_batch *batch, int32_t lane, 
     const phys_group *g = batch->groups[lane];
     const rlf_lane_batch *lanes = &batch->lanes;
     if (lanes->inverse_mass_a[lane] > 0.0f) {
-        turn_body(g->a, &world->speeds[lanes->a[lane]], impulse);
+        turn_body(world, g->a, &world->speeds[lanes->a[lane]], impulse);
     }
     if (g->b != NULL && lanes->inverse_mass_b[lane] > 0.0f) {
-        turn_body(g->b, &world->speeds[lanes->b[lane]], rlf_neg(impulse));
+        turn_body(world, g->b, &world->speeds[lanes->b[lane]], rlf_neg(impulse));
     }
 }
 
@@ -154,17 +156,23 @@ void phys_batches_warm_start(rlf_world *world, const phys_batch *batches, int32_
     }
 }
 
-static rlf_mat3 turning_mobility(const phys_batch *batch, int32_t lane)
+static void add_turning(const rlf_world *world, const phys_body *body, rlf_mat3 *sum)
+{
+    double lightness = (double)world->lightness[body - world->bodies];
+    for (int32_t i = 0; i < 9; i++) {
+        sum->m[i / 3][i % 3] += lightness * body->inverse_inertia_world.m[i / 3][i % 3];
+    }
+}
+
+static rlf_mat3 turning_mobility(const rlf_world *world, const phys_batch *batch, int32_t lane)
 {
     const phys_group *g = batch->groups[lane];
     rlf_mat3 sum = rlf_mat3_diagonal(0, 0, 0);
-    for (int32_t i = 0; i < 9; i++) {
-        if (batch->lanes.inverse_mass_a[lane] > 0.0f) {
-            sum.m[i / 3][i % 3] += g->a->inverse_inertia_world.m[i / 3][i % 3];
-        }
-        if (g->b != NULL && batch->lanes.inverse_mass_b[lane] > 0.0f) {
-            sum.m[i / 3][i % 3] += g->b->inverse_inertia_world.m[i / 3][i % 3];
-        }
+    if (batch->lanes.inverse_mass_a[lane] > 0.0f) {
+        add_turning(world, g->a, &sum);
+    }
+    if (g->b != NULL && batch->lanes.inverse_mass_b[lane] > 0.0f) {
+        add_turning(world, g->b, &sum);
     }
     return sum;
 }
@@ -184,7 +192,7 @@ static bool solve_rolling(rlf_world *world, const phys_batch *batch, int32_t lan
     for (int32_t i = 0; i < batch->lanes.point_count; i++) {
         pressing += (double)batch->lanes.points[i].impulse[0][lane];
     }
-    rlf_mat3 mobility = turning_mobility(batch, lane), mass;
+    rlf_mat3 mobility = turning_mobility(world, batch, lane), mass;
     rlf_vec3 before = g->stance->rolling;
     if (resistance == 0.0 || !rlf_mat3_invert(&mobility, &mass)) {
         return false;

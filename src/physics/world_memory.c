@@ -55,6 +55,7 @@ static int32_t plan_memory(rlf_world *w, memory_plan plans[PLANS_MAX])
         PLAN(colours, bodies),
         PLAN(speeds, bodies),
         PLAN(old_speeds, bodies),
+        PLAN(lightness, bodies),
         PLAN(busy_pass, bodies),
         PLAN(event_times, bodies + pairs),
         PLAN(event_counts, bodies + pairs),

@@ -45,6 +45,7 @@ typedef struct phys_batch {
     int32_t count;
     bool resists_rolling; /* some group does */
     bool is_deep;         /* two bodies overlap so much that they are pushed apart at full speed */
+    bool is_hard;         /* a blow without restitution, which no impact has answered, is in it */
     bool is_apart;        /* shares no body that moves with the batch before */
 } phys_batch;
 
@@ -119,6 +120,7 @@ struct rlf_world {
     uint64_t *colours;                  /* per body: those of its pairs, as bits */
     rlf_lane_speed *speeds;             /* per body: its velocities while they are solved for */
     rlf_lane_speed *old_speeds;         /* ... and before */
+    float *lightness;                   /* per body: mass by the one it is solved with; 1 or less */
     int32_t *busy_pass;                 /* per body: the pass in which it is to be solved again */
 
     double *event_times;   /* see impact/impact.c; of the groups, island by island */
@@ -210,7 +212,7 @@ static inline bool phys_world_has_room(const rlf_world *world, const rlf_grid *g
 {
     const rlf_grid_sheet *sheet = &grid->background;
     return sheet->depth != NULL && sheet->normal_x != NULL &&
-           (world->def.border == RLF_BORDER_EXTEND || sheet->border == RLF_BORDER_EXTEND);
+           world->def.border == RLF_BORDER_EXTEND && sheet->border == RLF_BORDER_EXTEND;
 }
 
 /* Adds the milliseconds since *clock_ns to *sum_ms and sets the clock. */

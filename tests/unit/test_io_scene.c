@@ -25,10 +25,13 @@ static void empty_scene_has_default_gravity(void **state)
     assert_int_equal(parse("{}", &scene), RLF_OK);
     assert_int_equal(scene.body_count, 0);
     assert_true(scene.gravity.y == rlf_world_def_default().gravity.y);
-    assert_true(scene.border == RLF_BORDER_OPEN);
+    assert_true(scene.border == RLF_BORDER_EXTEND);
     rlf_scene_destroy(&scene);
     assert_int_equal(parse("{\"border\":\"extend\"}", &scene), RLF_OK);
     assert_true(scene.border == RLF_BORDER_EXTEND);
+    rlf_scene_destroy(&scene);
+    assert_int_equal(parse("{\"border\":\"open\"}", &scene), RLF_OK);
+    assert_true(scene.border == RLF_BORDER_OPEN);
     assert_false(scene.is_gravity_given || scene.finds_gravity);
     rlf_scene_destroy(&scene);
     assert_int_equal(parse("{\"gravity\":\"floor\"}", &scene), RLF_OK);

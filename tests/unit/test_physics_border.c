@@ -5,6 +5,8 @@
 #include <stdint.h>
 #include <cmocka.h>
 
+#include "relief/pipeline.h"
+
 #include "grid_room.h"
 
 #define RING 7 /* pixels without depth around the image, as depth cameras have */
@@ -96,6 +98,22 @@ static void ring_is_no_gap(void **state)
     assert_true(p.y < 0.992);
 }
 
+/* Who says nothing has a floor where the camera does not look. */
+static void first_ball_does_not_fall_past_the_floor(void **state)
+{
+    (void)state;
+    const rlf_scene scene = {.body_count = 0};
+    rlf_body_def def = rlf_body_def_default();
+    def.shape = shape_of(1);
+    def.position = rlf_vec3_make(0, 0, 1);
+    rlf_vec3 p = {0, 0, 0};
+    double u, v;
+    assert_true(scene.border == rlf_world_def_default().border);
+    assert_true(throw_body(rlf_world_def_default().border, &def, 3.0, &p));
+    assert_false(grid_fixture_project(NULL, p, &u, &v));
+    assert_true(p.y < 0.91 && p.y > 0.88);
+}
+
 static void wrong_border_is_refused(void **state)
 {
     (void)state;
@@ -112,6 +130,7 @@ int main(void)
         cmocka_unit_test(body_out_of_view_lies_on_the_floor),
         cmocka_unit_test(body_that_starts_out_of_view_meets_the_room),
         cmocka_unit_test(ring_is_no_gap),
+        cmocka_unit_test(first_ball_does_not_fall_past_the_floor),
         cmocka_unit_test(wrong_border_is_refused),
     };
     return cmocka_run_group_tests(tests, set_up, grid_room_destroy);

@@ -7,7 +7,7 @@
 static rlf_result read_border(const io_json_object *top, rlf_border *out)
 {
     static const io_json_field field = {"border", "\"open\" or \"extend\"", 0, 0, false};
-    const char *name = "open";
+    const char *name = "extend";
     rlf_result result = io_json_get_text(top, &field, &name);
     if (result != RLF_OK) {
         return result;

@@ -60,6 +60,18 @@ static inline rlf_vec3 grid_cell_inward(const field_cell *cell)
     return rlf_scale(cell->normal, facing);
 }
 
+/* What a pixel shows of a face is at most so many times longer than it is wide. */
+#define GRID_LONGEST 10.0
+
+/* Half of the diagonal of what a pixel of every `stride` shows of its face, metres: pixels are far
+ * apart on a face that is seen at a low angle, and a small body fits between their points. */
+static inline double grid_cell_half(const rlf_grid *grid, const field_cell *cell, int32_t stride)
+{
+    double cosine = -rlf_dot(cell->normal, cell->point) / rlf_length(cell->point);
+    double pitch = stride * cell->point.z * grid->pixel_angle;
+    return 0.7 * pitch / rlf_max(cosine, 1.0 / GRID_LONGEST);
+}
+
 /* Whether q is before all that may be on its ray by the depth of its pixel alone: false says
  * nothing. */
 bool grid_field_is_open(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q);

@@ -97,6 +97,22 @@ static inline double grid_approach_at(const grid_job *job, rlf_vec3 p, rlf_vec3 
     return rlf_dot(normal, rlf_sub(velocity, v));
 }
 
+/* The touching point, `arm` from the body's centre, of a round body follows the plane that was
+ * found, whichever way it was named for; a cylinder's rim only where that is about this plane. */
+static inline void grid_follow_plane(const grid_job *job, grid_hit *hit, rlf_vec3 arm,
+                                     rlf_vec3 named_for)
+{
+    bool is_followed =
+        phys_shape_is_round(&job->body->shape) || rlf_dot(hit->normal, named_for) > ONE_PLANE_COS;
+    if (hit->rounding > 0.0 && is_followed) {
+        rlf_vec3 core = rlf_mad(rlf_add(job->motion.centre, arm), named_for, hit->rounding);
+        hit->separation = rlf_dot(hit->normal, rlf_sub(core, hit->point)) - hit->rounding;
+    } else if (hit->rounding > 0.0) {
+        hit->anchor = rlf_mat3_mul_vec(&job->motion.R_body_grid, arm);
+        hit->rounding = 0.0;
+    }
+}
+
 static inline void grid_add_hit(grid_job *job, const grid_hit *hit)
 {
     if (job->hit_count < GRID_HITS_MAX) {

@@ -72,12 +72,22 @@ static void measure(grid_tile *tile, const rlf_grid *grid, const rlf_grid_sheet 
     tile->box.max = rlf_vec3_make(high[0], high[1], high[2]);
 }
 
+/* The box about what a pixel shows of its face. */
+static rlf_aabb face_of(const rlf_grid *grid, const field_cell *cell)
+{
+    double half = grid_cell_half(grid, cell, 1);
+    rlf_vec3 wide = rlf_vec3_make(half, half, half);
+    return (rlf_aabb){rlf_sub(cell->point, wide), rlf_add(cell->point, wide)};
+}
+
 /* The box about the solid behind a pixel, whichever way it goes. */
-static void extend(rlf_aabb *solid, const field_cell *cell)
+static void extend(rlf_aabb *solid, const rlf_grid *grid, const field_cell *cell)
 {
     double along = cell->thickness / cell->point.z;
     rlf_vec3 inward = grid_cell_inward(cell);
-    rlf_aabb_extend(solid, cell->point);
+    rlf_aabb face = face_of(grid, cell);
+    rlf_aabb_extend(solid, face.min);
+    rlf_aabb_extend(solid, face.max);
     rlf_aabb_extend(solid, rlf_mad(cell->point, cell->point, along));
     rlf_aabb_extend(solid, rlf_mad(cell->point, inward, cell->thickness));
 }
@@ -139,7 +149,7 @@ static void bound(grid_tile *tile, const rlf_grid *grid, const rlf_grid_sheet *s
         for (int32_t x = rect[0]; x < rect[2]; x++) {
             field_cell cell;
             if (grid_cell_read(grid, sheet, x, y, &cell)) {
-                extend(&row[(x - rect[0]) >> shift], &cell);
+                extend(&row[(x - rect[0]) >> shift], grid, &cell);
                 tile->is_endless = tile->is_endless || cell.thickness >= FIELD_ENDLESS;
                 tile->deepest = rlf_max(tile->deepest, depth_of(&cell));
                 tile->speed = rlf_max(tile->speed, rlf_dot(cell.velocity, cell.velocity));
@@ -155,6 +165,7 @@ static void bound(grid_tile *tile, const rlf_grid *grid, const rlf_grid_sheet *s
         }
         set_block(&tile->blocks, block, &solids[block]);
     }
+    tile->near_z = rlf_min(tile->near_z, tile->solid.min.z);
 }
 
 uint32_t grid_tile_blocks_near(const grid_tile *tile, rlf_vec3 p, double reach)

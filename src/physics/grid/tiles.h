@@ -22,7 +22,7 @@ typedef struct grid_blocks {
 } grid_blocks;
 
 typedef struct grid_tile {
-    double near_z;   /* least depth, metres */
+    double near_z;   /* least depth of what its pixels show, metres */
     double speed;    /* no pixel is faster, m/s */
     rlf_aabb solid;  /* the box about its solid, unless ... */
     bool is_endless; /* ... that never ends */

@@ -2,8 +2,11 @@
 #include "physics/impact/answer.h"
 #include "kernel/kernel.h"
 
-/* Gap at which a contact of the same group takes part in an impact, metres. */
+/* Gap at which a contact of the same group takes part in an impact, metres. A real surface that is
+ * seen is flat up to its noise: there it may be wider, up to a share of the body's radius. */
 #define TOGETHER 2e-4
+#define TOGETHER_SEEN 1e-3
+#define TOGETHER_SHARE 0.05
 /* Passes over the contacts of a group, until no speed changes by more than a share of the blow's.
  */
 #define PASSES 12
@@ -182,15 +185,22 @@ RLF_KERNEL_PART double solve_point(impact_point *p, double friction, phys_sides 
     return rlf_max(most, row_push(&rows[2], s, has_b, j1 * scale));
 }
 
+static double together(const phys_group *g)
+{
+    double seen = rlf_min(TOGETHER_SEEN, TOGETHER_SHARE * g->a->shape.radius);
+    return g->b == NULL ? rlf_max(TOGETHER, seen) : TOGETHER;
+}
+
 /* Those of the group's contacts that close at time t. */
 static int32_t list_points(const phys_group *g, const phys_sides *s, double t, impact_point *points)
 {
     int32_t count = 0;
+    double gap = together(g);
     for (int32_t i = 0; i < g->point_count; i++) {
         phys_point *near = &g->points[i];
         double fall = normal_acceleration(near, g) * t;
         double v = rlf_dot(near->normal, relative_velocity(near, s, g->b != NULL));
-        if (virtual_gap(near, g) + (v + 0.5 * fall) * t > TOGETHER) {
+        if (virtual_gap(near, g) + (v + 0.5 * fall) * t > gap) {
             continue;
         }
         impact_point *p = &points[count++];

@@ -121,6 +121,25 @@ double phys_shape_distance(const phys_shape *shape, rlf_vec3 p, rlf_vec3 *out_gr
     return distance_of(&shape->shape, shape->planes, shape->plane_count, p, out_gradient);
 }
 
+/* The rim points that look in a direction that is not the axis. About level, the cylinder rolls:
+ * the points follow it about its axis. */
+static int32_t cylinder_support(const rlf_shape *s, rlf_vec3 direction, rlf_vec3 out[2],
+                                double *out_rounding)
+{
+    const double LEVEL = 0.2; /* cosine to the axis */
+    rlf_vec3 flat = rlf_vec3_make(direction.x, 0, direction.z);
+    bool is_level = direction.y < LEVEL && direction.y > -LEVEL;
+    *out_rounding = is_level ? s->radius : 0.0;
+    if (rlf_dot(flat, flat) < 1e-6) {
+        return 0; /* standing on its cap: the fixed rim points serve */
+    }
+    rlf_vec3 rim = rlf_scale(rlf_normalize(flat), s->radius);
+    rlf_vec3 core = rlf_mad(rim, direction, -*out_rounding);
+    out[0] = rlf_add(core, rlf_vec3_make(0, 0.5 * s->height, 0));
+    out[1] = rlf_add(core, rlf_vec3_make(0, -0.5 * s->height, 0));
+    return 2;
+}
+
 int32_t phys_shape_support(const phys_shape *shape, rlf_vec3 direction, rlf_vec3 out[2],
                            double *out_rounding)
 {
@@ -133,17 +152,7 @@ int32_t phys_shape_support(const phys_shape *shape, rlf_vec3 direction, rlf_vec3
         out[0] = rlf_vec3_make(0, half, 0);
         out[1] = rlf_vec3_make(0, -half, 0);
         return 2;
-    case RLF_SHAPE_CYLINDER: {
-        *out_rounding = 0.0;
-        rlf_vec3 flat = rlf_vec3_make(direction.x, 0, direction.z);
-        if (rlf_dot(flat, flat) < 1e-6) {
-            return 0; /* standing on its cap: the fixed rim points serve */
-        }
-        rlf_vec3 rim = rlf_scale(rlf_normalize(flat), s->radius);
-        out[0] = rlf_add(rim, rlf_vec3_make(0, half, 0));
-        out[1] = rlf_add(rim, rlf_vec3_make(0, -half, 0));
-        return 2;
-    }
+    case RLF_SHAPE_CYLINDER: return cylinder_support(s, direction, out, out_rounding);
     case RLF_SHAPE_BOX: break;
     case RLF_SHAPE_HULL:
         *out_rounding = 0.0;

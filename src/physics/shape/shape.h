@@ -52,9 +52,16 @@ double phys_shape_distance(const phys_shape *shape, rlf_vec3 p, rlf_vec3 *out_gr
 
 /* Up to two core points of a shape (body frame): the surface point farthest along the unit
  * `direction` is core + *out_rounding * direction. Ball: its centre; capsule: the cap centres;
- * cylinder: the two rim points, rounding 0; a hull with more vertices than it has sample points:
- * its farthest one. Returns their number; 0 for a box and for other hulls. */
+ * cylinder: of its two rim points, rounding 0 unless the direction is about level; a hull with more
+ * vertices than it has sample points: its farthest one. Returns their number; 0 for a box and for
+ * other hulls. */
 int32_t phys_shape_support(const phys_shape *shape, rlf_vec3 direction, rlf_vec3 out[2],
                            double *out_rounding);
+
+/* Whether balls of that rounding about a shape's core points are part of it, in any direction. */
+static inline bool phys_shape_is_round(const phys_shape *shape)
+{
+    return shape->shape.type == RLF_SHAPE_SPHERE || shape->shape.type == RLF_SHAPE_CAPSULE;
+}
 
 #endif

@@ -27,10 +27,8 @@ bool grid_ball_time(const grid_job *job, rlf_vec3 p, rlf_vec3 velocity, double w
 static double sag_between(const grid_job *job, const field_cell *cell)
 {
     double radius = job->body->shape.shape.radius;
-    double cosine = -rlf_dot(cell->normal, cell->point) / rlf_length(cell->point);
-    double pitch = job->scan.stride * cell->point.z * job->query->grid->pixel_angle;
-    double half = 0.7 * pitch / rlf_max(cosine, 0.1); /* of the diagonal */
-    return rlf_min(0.5 * half * half / radius + 0.7 * half, 0.5 * radius);
+    double half = grid_cell_half(job->query->grid, cell, job->scan.stride);
+    return rlf_min(0.5 * half * half / radius, half) + 0.7 * half;
 }
 
 /* Of touches in like directions only the earliest is kept. */

@@ -96,39 +96,69 @@ static void cast_point(grid_job *job, rlf_vec3 anchor, double rounding, rlf_vec3
     hit->rounding = rounding;
     hit->separation = found.separation;
     hit->label = found.label;
-    if (rounding > 0.0) { /* the touching point of a round body follows the plane that was found */
-        rlf_vec3 core = rlf_mad(q, normal, rounding);
-        hit->separation = rlf_dot(hit->normal, rlf_sub(core, hit->point)) - rounding;
+    grid_follow_plane(job, hit, r, normal);
+}
+
+/* Whether the last hit is with a plane that a named point of a round body, of which there are
+ * `named`, meets too: that one rolls along, and a fixed one beside it would push it on. */
+static bool is_known(const grid_job *job, int32_t named)
+{
+    const grid_hit *last = &job->hits[job->hit_count - 1];
+    for (int32_t k = 0; k < named; k++) {
+        const grid_hit *hit = &job->hits[k];
+        double off = rlf_dot(hit->normal, rlf_sub(last->point, hit->point));
+        if (hit->rounding > 0.0 && rlf_dot(hit->normal, last->normal) > SAME_FACE_COS &&
+            off < GRID_NOISE_M) {
+            return true;
+        }
     }
+    return false;
+}
+
+static void cast_sample(grid_job *job, rlf_vec3 anchor, int32_t named)
+{
+    const rlf_vec3 none = {0, 0, 0};
+    int32_t before = job->hit_count;
+    cast_point(job, anchor, 0.0, none);
+    if (job->hit_count > before && is_known(job, named)) {
+        job->hit_count = before;
+    }
+}
+
+/* The points that the shape names for the surface's directions. Returns whether there are any, and
+ * all of a round body. */
+static bool cast_named(grid_job *job)
+{
+    int32_t count = 0, round = 0;
+    for (int32_t i = 0; i < job->scan.normal_count; i++) {
+        rlf_vec3 core[2];
+        double rounding;
+        rlf_vec3 down = rlf_mat3_mul_vec(&job->motion.R_body_grid, rlf_neg(job->scan.normals[i]));
+        int32_t named = phys_shape_support(&job->body->shape, down, core, &rounding);
+        for (int32_t k = 0; k < named; k++) {
+            cast_point(job, core[k], rounding, job->scan.normals[i]);
+        }
+        count += named;
+        round += rounding > 0.0 ? named : 0;
+    }
+    return count > 0 && round == count;
 }
 
 /* On a plane a convex body stands on vertices, a round one on the points that its shape names. */
 void grid_cast_points(grid_job *job)
 {
     const phys_shape *shape = &job->body->shape;
-    rlf_vec3 none = {0, 0, 0};
-    int32_t named = 0;
-    for (int32_t i = 0; i < job->scan.normal_count; i++) {
-        rlf_vec3 core[2];
-        double rounding;
-        rlf_vec3 down = rlf_mat3_mul_vec(&job->motion.R_body_grid, rlf_neg(job->scan.normals[i]));
-        int32_t count = phys_shape_support(shape, down, core, &rounding);
-        for (int32_t k = 0; k < count; k++) {
-            cast_point(job, core[k], rounding, job->scan.normals[i]);
-        }
-        named += count;
-    }
-    bool is_round = shape->shape.type == RLF_SHAPE_SPHERE || shape->shape.type == RLF_SHAPE_CAPSULE;
-    if (job->scan.is_flat && is_round && named > 0) {
+    if (cast_named(job) && job->scan.is_flat) {
         return;
     }
+    int32_t named = job->hit_count;
     int32_t count = job->scan.is_flat ? shape->vertex_count : shape->point_count;
     for (int32_t begin = 0; begin < count; begin += GRID_NEAR_MAX) {
         int32_t some = count - begin < GRID_NEAR_MAX ? count - begin : GRID_NEAR_MAX;
         uint32_t near = grid_points_near(job, shape->points + begin, some);
         for (int32_t i = 0; i < some; i++) {
             if ((near >> i & 1u) != 0) {
-                cast_point(job, shape->points[begin + i], 0.0, none);
+                cast_sample(job, shape->points[begin + i], named);
             }
         }
     }

@@ -24,20 +24,38 @@ static rlf_vec3 point_of(const grid_job *job, int32_t i)
     return job->hits[i].anchor;
 }
 
-/* How much choosing hit i widens the support that `chosen` gives: distance, then area. */
-static double spread(const grid_job *job, const int32_t *chosen, int32_t count, int32_t i)
+/* How far apart hits i and k are along the face, metres. */
+static rlf_vec3 along_face(const grid_job *job, int32_t i, int32_t k, rlf_vec3 normal)
 {
-    rlf_vec3 d = rlf_sub(point_of(job, i), point_of(job, chosen[0]));
+    rlf_vec3 d = rlf_sub(point_of(job, i), point_of(job, k));
+    return rlf_mad(d, normal, -rlf_dot(d, normal));
+}
+
+/* Over the face, metres; 0 below it. */
+static double height_of(const grid_job *job, int32_t i)
+{
+    return rlf_max(0.0, job->hits[i].separation);
+}
+
+/* How much choosing hit i widens the support that `chosen` gives along the face, metres: from a
+ * point, from a line, then on the line's other side. What is higher over the face touches later, or
+ * never: it must be so much farther out. */
+static double spread(const grid_job *job, const int32_t *chosen, int32_t count, int32_t i,
+                     rlf_vec3 normal)
+{
+    double height = height_of(job, i) - height_of(job, chosen[0]);
+    rlf_vec3 d = along_face(job, i, chosen[0], normal);
     if (count == 1) {
-        return rlf_dot(d, d);
+        return rlf_length(d) - height;
     }
-    rlf_vec3 e = rlf_sub(point_of(job, chosen[1]), point_of(job, chosen[0]));
-    rlf_vec3 area = rlf_cross(e, d);
+    rlf_vec3 e = rlf_normalize(along_face(job, chosen[1], chosen[0], normal));
+    rlf_vec3 beside = rlf_mad(d, e, -rlf_dot(d, e));
     if (count == 2) {
-        return rlf_dot(area, area);
+        return rlf_length(beside) - height;
     }
-    rlf_vec3 f = rlf_sub(point_of(job, chosen[2]), point_of(job, chosen[0]));
-    return -rlf_dot(area, rlf_cross(e, f)); /* on the other side of the line */
+    rlf_vec3 f = along_face(job, chosen[2], chosen[0], normal);
+    rlf_vec3 other = rlf_normalize(rlf_mad(f, e, -rlf_dot(f, e)));
+    return -rlf_dot(beside, other) - height;
 }
 
 /* Up to four hits of one direction; all of that direction are marked as used. */
@@ -50,6 +68,7 @@ static int32_t choose_cluster(const grid_job *job, bool *is_used, int32_t chosen
         return 0;
     }
     const grid_hit *first = &job->hits[chosen[0]];
+    rlf_vec3 normal = rlf_mat3_mul_vec(&job->motion.R_body_grid, first->normal);
     for (int32_t i = 0; i < job->hit_count; i++) {
         is_member[i] = !is_used[i] && rlf_dot(job->hits[i].normal, first->normal) > SAME_FACE_COS;
         is_used[i] = is_used[i] || is_member[i];
@@ -58,9 +77,9 @@ static int32_t choose_cluster(const grid_job *job, bool *is_used, int32_t chosen
     int32_t count = 1;
     while (count < 4) {
         int32_t best = -1;
-        double best_value = 1e-6 * radius * radius * (count > 1 ? radius * radius : 1.0);
+        double best_value = 1e-3 * radius;
         for (int32_t i = 0; i < job->hit_count; i++) {
-            double value = is_member[i] ? spread(job, chosen, count, i) : 0.0;
+            double value = is_member[i] ? spread(job, chosen, count, i, normal) : 0.0;
             if (value > best_value) {
                 best_value = value;
                 best = i;

@@ -35,7 +35,8 @@ static void note_bump(grid_job *job, const grid_hit *hit)
     job->scan.bumps[slot] = *hit;
 }
 
-static void look_at_interior(grid_job *job, const field_cell *cell, rlf_vec3 p)
+/* What the pixel at p shows of its face goes on for `half` metres. */
+static void look_at_interior(grid_job *job, const field_cell *cell, rlf_vec3 p, double half)
 {
     if (job->is_ball) {
         grid_ball_look(job, cell, p);
@@ -47,7 +48,7 @@ static void look_at_interior(grid_job *job, const field_cell *cell, rlf_vec3 p)
     rlf_vec3 outward = rlf_neg(rlf_mat3_mul_vec(&job->motion.R_grid_body, gradient));
     double approach = grid_approach_at(job, p, outward, cell->velocity);
     double near = rlf_max(0.0, approach) * job->window.horizon;
-    if (distance < near + 0.5 * job->body->shape.radius) {
+    if (distance < near + 0.5 * job->body->shape.radius + half) {
         note_normal(job, cell->normal);
     }
     if (distance > near) {
@@ -71,11 +72,40 @@ static void look_at_interior(grid_job *job, const field_cell *cell, rlf_vec3 p)
     note_bump(job, &hit);
 }
 
+/* Where the camera would see p, in pixels: beyond the border as though its lens went on there like
+ * a pinhole. False where nothing within `reach` of p is in view. */
+static bool project_beyond(const rlf_grid *grid, rlf_vec3 p, double reach, double *u, double *v)
+{
+    const double SLANT = 2.0; /* the border may be so much nearer than it is on the way inwards */
+    const int32_t HALVINGS = 10;
+    if (grid->project(grid->project_context, p, u, v)) {
+        return true;
+    }
+    double aside = sqrt(p.x * p.x + p.y * p.y), unseen = 0.0, seen = rlf_min(aside, SLANT * reach);
+    rlf_vec3 inwards = rlf_vec3_make(-p.x / aside, -p.y / aside, 0.0);
+    if (!(aside > 0.0) || !grid->project(grid->project_context, rlf_mad(p, inwards, seen), u, v)) {
+        return false;
+    }
+    for (int32_t i = 0; i < HALVINGS; i++) {
+        double middle = 0.5 * (unseen + seen), at[2];
+        if (grid->project(grid->project_context, rlf_mad(p, inwards, middle), &at[0], &at[1])) {
+            seen = middle;
+            *u = at[0];
+            *v = at[1];
+        } else {
+            unseen = middle;
+        }
+    }
+    *u -= seen * inwards.x / (p.z * grid->pixel_angle);
+    *v -= seen * inwards.y / (p.z * grid->pixel_angle);
+    return true;
+}
+
 bool grid_footprint(const rlf_grid *grid, rlf_vec3 centre, double reach, int32_t rect[4],
                     int32_t *stride)
 {
     double u, v;
-    if (!(centre.z > 0.0) || !grid->project(grid->project_context, centre, &u, &v)) {
+    if (!(centre.z > 0.0) || !project_beyond(grid, centre, reach, &u, &v)) {
         return false;
     }
     double near = rlf_max(centre.z - reach, 0.1);
@@ -111,7 +141,8 @@ static void look_at_pixel(grid_job *job, int32_t x, int32_t y, int32_t stride, f
     int32_t i = y * grid->width + x;
     field_cell cell;
     double z = sheet->depth[i]; /* a cheap look first */
-    if (!(z > 0.0) || z > job->motion.centre.z + job->window.reach ||
+    double nearest_z = z * (1.0 - GRID_LONGEST * stride * grid->pixel_angle);
+    if (!(z > 0.0) || nearest_z > job->motion.centre.z + job->window.reach ||
         (sheet->mask != NULL && sheet->mask[i] == 0) || !grid_cell_read(grid, sheet, x, y, &cell)) {
         return;
     }
@@ -120,17 +151,19 @@ static void look_at_pixel(grid_job *job, int32_t x, int32_t y, int32_t stride, f
     double level = rlf_dot(rlf_sub(job->motion.centre, beside), inward) / rlf_dot(inward, inward);
     beside = rlf_mad(beside, inward, rlf_clamp(level, 0.0, cell.thickness));
     beside = rlf_sub(beside, job->motion.centre);
-    double distance2 = rlf_dot(beside, beside);
-    if (distance2 < job->window.reach * job->window.reach) {
-        job->scan.nearest2 = rlf_min(job->scan.nearest2, distance2);
+    double distance2 = rlf_dot(beside, beside), half = grid_cell_half(grid, &cell, stride);
+    double reach = job->window.reach + half;
+    if (distance2 < reach * reach) {
+        double nearest = rlf_max(0.0, sqrt(distance2) - half);
+        job->scan.nearest2 = rlf_min(job->scan.nearest2, nearest * nearest);
         flow->velocity = rlf_add(flow->velocity, cell.velocity);
         flow->count += 1.0;
         job->scan.is_near = true;
         job->scan.is_flat = false;
         rlf_vec3 front = rlf_add(cell.point, shift);
-        double margin = 0.5 * job->body->shape.radius + ROUNDING;
+        double margin = 0.5 * job->body->shape.radius + half + ROUNDING;
         if (!is_too_far(job, &cell, rlf_length(rlf_sub(front, job->motion.centre)), margin)) {
-            look_at_interior(job, &cell, front);
+            look_at_interior(job, &cell, front, half);
         }
         double gap = (stride - 1) * cell.point.z * grid->pixel_angle; /* to the outline */
         if (!is_too_far(job, &cell, sqrt(distance2), 2.0 * gap + GRID_MARGIN + ROUNDING)) {

@@ -63,11 +63,7 @@ static void add_touch(grid_job *job, const mapped_touch *touch, rlf_vec3 anchor,
     hit.anchor = anchor;
     hit.rounding = rounding;
     hit.separation = touch->separation;
-    if (rounding > 0.0) { /* the touching point of a round body follows the plane that was found */
-        rlf_vec3 core = rlf_mad(arm_of(job, anchor, rounding, towards), towards, rounding);
-        core = rlf_add(core, job->motion.centre);
-        hit.separation = rlf_dot(hit.normal, rlf_sub(core, hit.point)) - rounding;
-    }
+    grid_follow_plane(job, &hit, arm_of(job, anchor, rounding, towards), towards);
     grid_add_hit(job, &hit);
 }
 
@@ -129,7 +125,7 @@ static void meet_supports(grid_job *job, const mapped_normals *normals)
         int32_t count = phys_shape_support(&job->body->shape, down, core, &rounding);
         for (int32_t k = 0; k < count; k++) {
             mapped_touch touch;
-            if (rounding > 0.0) {
+            if (phys_shape_is_round(&job->body->shape)) {
                 meet_face_at(job, core[k], rounding);
             }
             if (cast_arm(job, arm_of(job, core[k], rounding, normal), GRID_MARGIN, &touch)) {
@@ -170,8 +166,7 @@ void mapped_collide(grid_job *job)
     if (gap > job->window.reach) {
         return;
     }
-    rlf_shape_type type = job->body->shape.shape.type;
-    bool is_round = type == RLF_SHAPE_SPHERE || type == RLF_SHAPE_CAPSULE;
+    bool is_round = phys_shape_is_round(&job->body->shape);
     mapped_normals normals = {.count = 0};
     if (rlf_dot(job->query->up, job->query->up) > 0.0) {
         note_normal(&normals, job->query->up);

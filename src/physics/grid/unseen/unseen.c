@@ -17,6 +17,17 @@
 #include "physics/grid/unseen/unseen.h"
 #include "physics/grid/unseen/upright_face.h"
 
+/* Whether the camera does not see q, or where that is as it comes to the plane, `separation` metres
+ * away: what falls may leave the picture before it touches. */
+static bool is_hidden_way(const grid_job *job, rlf_vec3 q, rlf_vec3 v, double separation,
+                          double approach)
+{
+    double time = approach > 0.0 ? rlf_max(0.0, separation) / approach : 0.0;
+    const rlf_grid *grid = job->query->grid;
+    return room_is_hidden(grid, q) ||
+           (time > 0.0 && time <= job->window.horizon && room_is_hidden(grid, rlf_mad(q, v, time)));
+}
+
 /* The body's point against a plane where the camera does not see it. */
 static void touch_plane(grid_job *job, const room_plane *plane, rlf_vec3 anchor, double rounding)
 {
@@ -27,7 +38,7 @@ static void touch_plane(grid_job *job, const room_plane *plane, rlf_vec3 anchor,
     double approach = -rlf_dot(plane->normal, v);
     double separation = room_plane_height(plane, q);
     if (separation < GRID_MARGIN + rlf_max(0.0, approach) * job->window.horizon &&
-        room_is_hidden(job->query->grid, q) && !mapped_answers(job->query, q)) {
+        is_hidden_way(job, q, v, separation, approach) && !mapped_answers(job->query, q)) {
         grid_hit hit = {.point = rlf_mad(q, plane->normal, -separation), .normal = plane->normal};
         hit.anchor = anchor;
         hit.rounding = rounding;
