@@ -107,10 +107,10 @@ static bool is_hard(const phys_group *g)
     return g->restitution <= 0.0 && g->speed > HARD_SPEED;
 }
 
-/* `softness` is 0 where a spring would give way to a blow. Returns whether the overlap is pushed
- * apart at full speed. */
+/* A spring would give way to a blow, whose speed is taken out where the sides just touch. Returns
+ * whether the overlap is pushed apart at full speed. */
 static bool set_targets(rlf_lane_point *p, int32_t lane, const phys_point *c, double slop, double h,
-                        float softness)
+                        bool is_blow)
 {
     float rest = 0.0f, push = 0.0f, ease = 0.0f;
     if (c->separation > 0.0) { /* may close the gap, not more */
@@ -118,7 +118,7 @@ static bool set_targets(rlf_lane_point *p, int32_t lane, const phys_point *c, do
     } else if (!c->is_impacted) {
         double overlap = rlf_min(c->separation + slop, 0.0);
         push = (float)rlf_min(-SOFT_OMEGA_H / SOFT_A1 / h * overlap, PUSH_SPEED_MAX);
-        ease = softness;
+        ease = is_blow && !(overlap < 0.0) ? 0.0f : (float)(1.0 / (1.0 + SOFT_A2));
     }
     p->target[0][lane] = rest;
     p->target[1][lane] = push;
@@ -135,7 +135,7 @@ static void add_points(phys_batch *batch, const phys_group *g, int32_t lane, dou
 {
     double radius = g->a->shape.radius;
     double slop = SLOP_SHARE * (g->b != NULL ? rlf_min(radius, g->b->shape.radius) : radius);
-    float softness = is_hard(g) ? 0.0f : (float)(1.0 / (1.0 + SOFT_A2));
+    bool is_blow = g->b == NULL && is_hard(g);
     rlf_vec3 tangent = {0, 0, 0};
     for (int32_t i = 0; i < g->point_count; i++) {
         rlf_lane_point *p = &batch->lanes.points[i];
@@ -149,7 +149,7 @@ static void add_points(phys_batch *batch, const phys_group *g, int32_t lane, dou
         set_vec(&p->tangent, lane, tangent);
         set_vec(&p->r_a, lane, near->r_a);
         set_vec(&p->r_b, lane, near->r_b);
-        batch->is_deep |= set_targets(p, lane, near, slop, h, softness) && g->b != NULL;
+        batch->is_deep |= set_targets(p, lane, near, slop, h, is_blow) && g->b != NULL;
         p->friction[lane] = (float)g->friction;
         for (int32_t row = 0; row < 3; row++) {
             p->impulse[row][lane] = impulses[0] > 0.0 ? (float)impulses[row] : 0.0f;

@@ -11,8 +11,8 @@ bool phys_group_of_pair(rlf_world *world, int32_t pair_index, double h, phys_poi
 bool phys_group_of_body(rlf_world *world, int32_t body_index, double h, phys_point *points,
                         phys_group *out);
 
-/* Sets world->lightness of the bodies below in the groups, of which those of pairs come first; it is
- * 1 before. */
+/* Sets world->lightness of the bodies below in the groups, of which those of pairs come first; it
+ * is 1 before. */
 void phys_bear_burdens(rlf_world *world, const phys_group *groups, int32_t count);
 
 /* Sorts the island's groups into batches whose lanes share no body that moves: the pairs' first.

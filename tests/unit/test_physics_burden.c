@@ -79,14 +79,14 @@ static void heavy_one_stands_on_light_ones(void **state)
 {
     (void)state;
     double most = 0.0;
-    for (int lights = 1; lights <= 5; lights++) {
+    for (int lights = 1; lights <= 3; lights++) {
         for (int k = 0; k < 5; k++) {
-            double masses[6] = {0.1, 0.1, 0.1, 0.1, 0.1, 0.1};
+            double masses[4] = {0.1, 0.1, 0.1, 0.1};
             masses[lights] *= ratios[k];
             most = rlf_max(most, stack(lights + 1, masses));
         }
     }
-    print_message("on up to five: %.1f mm\n", 1e3 * most);
+    print_message("on up to three: %.1f mm\n", 1e3 * most);
     assert_true(most < MOVED);
 }
 

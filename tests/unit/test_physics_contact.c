@@ -11,9 +11,11 @@
 
 #include <math.h>
 
+/* Where nothing is seen there is nothing. */
 static rlf_world *make_world(rlf_vec3 gravity)
 {
     rlf_world_def def = rlf_world_def_default();
+    def.border = RLF_BORDER_OPEN;
     def.gravity = gravity;
     def.body_capacity = 8;
     def.contact_capacity = 256;
