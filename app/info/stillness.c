@@ -174,8 +174,7 @@ static void bound_noise(const stillness *s)
     }
     for (int32_t b = 0; b < INFO_BINS; b++) {
         tally *t = &tallies[b];
-        t->most =
-            2 * t->noisy > t->seen ? most_unlike * quantile(t->cells, t->noisy, 0.5) : 0.0;
+        t->most = 2 * t->noisy > t->seen ? most_unlike * quantile(t->cells, t->noisy, 0.5) : 0.0;
         memset(t->cells, 0, sizeof(t->cells));
     }
 }

@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 #define STRIDE_MAX ((ptrdiff_t)1 << 30) /* bytes: no picture's, but a wrong number's */
-#define UNITS_MAX 1e6 /* counts a metre: a micrometre each */
+#define UNITS_MAX 1e6                   /* counts a metre: a micrometre each */
 
 static unsigned long long number_of(const rlf_frame *frame)
 {

@@ -23,7 +23,7 @@ static const double least_share = 0.03;  /* of normals along up: fewer are chanc
 static const double doubted_roll = 0.15; /* of the roll's odds that confidence believes */
 static const double least_level = 0.996; /* cos 5 degrees: from the picture's up, or floors' */
 static const double level_share = 0.1;   /* of normals along an axis: a plane, and no clutter */
-static const double alone = 0.65;           /* confidence in what nothing agrees with */
+static const double alone = 0.65;        /* confidence in what nothing agrees with */
 
 /* Cameras stand upright, or nearly so, far more often than not. The nearer to straight down one
  * looks, the less a picture's up means. */

@@ -35,7 +35,7 @@ double rlf_up_least(double a[4][4], rlf_vec3 *axis);
 rlf_vec3 rlf_up_level(const rlf_surface *surface, rlf_vec3 up);
 
 typedef struct rlf_up_evidence {
-    double up, down;   /* shares of the normals that are along the direction, and against it */
+    double up, down;       /* shares of the normals that are along the direction, and against it */
     double across, square; /* and across it, within 15 and within 5 degrees */
     double standing;   /* share of the pixels that are of small things on the largest plane there */
     double likelihood; /* logarithm, mean of all samples: of what their rays end on */

@@ -164,8 +164,7 @@ static void a_clip_that_cannot_be_read_fails(void **state)
     rlf_frame frame;
     rlf_source *source = open_clip(&r);
     assert_int_equal(rlf_source_next(source, &frame), RLF_ERROR_FORMAT);
-    assert_string_equal(rlf_error_text(),
-                        "frame 0: is damaged (and no other frame could be read)");
+    assert_string_equal(rlf_error_text(), "frame 0: is damaged (and no other frame could be read)");
     rlf_source_destroy(&source);
 }
 

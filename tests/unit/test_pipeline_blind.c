@@ -93,9 +93,8 @@ static void bodies_wait_for_the_room(void **state)
         for (int profile = 0; profile < 2; profile++) {
             rlf_source *source = open_floor(from[k], from[k] + 30);
             int32_t waits = 0;
-            const double z =
-                height_at_end(source, profile ? RLF_PROFILE_THESIS : RLF_PROFILE_LIVE,
-                              profile ? RLF_CAMERA_FIXED : RLF_CAMERA_AUTO, &waits);
+            const double z = height_at_end(source, profile ? RLF_PROFILE_THESIS : RLF_PROFILE_LIVE,
+                                           profile ? RLF_CAMERA_FIXED : RLF_CAMERA_AUTO, &waits);
             assert_int_equal(waits, 30);
             if (profile == 0) { /* the thesis's points do not hold a box for long */
                 assert_float_equal(z, 1.9, 0.005);

@@ -41,12 +41,8 @@ const char *io_guess_camera(int32_t width, int32_t height, rlf_camera *out)
     for (size_t i = 0; i < sizeof(guesses) / sizeof(guesses[0]); i++) {
         const guess *g = &guesses[i];
         if (g->width == width && g->height == height) {
-            *out = (rlf_camera){.width = width,
-                                .height = height,
-                                .fx = g->f,
-                                .fy = g->f,
-                                .cx = g->cx,
-                                .cy = g->cy};
+            *out = (rlf_camera){
+                .width = width, .height = height, .fx = g->f, .fy = g->f, .cx = g->cx, .cy = g->cy};
             return g->name;
         }
     }

@@ -98,8 +98,7 @@ static size_t walk(DIR *directory, const char *sub, const char *word, const char
     size_t used = 0;
     int32_t count = 0;
     const int32_t most = out->entries != NULL ? *inout_count : FILES_MAX;
-    for (struct dirent *e = readdir(directory); e != NULL && count < most;
-         e = readdir(directory)) {
+    for (struct dirent *e = readdir(directory); e != NULL && count < most; e = readdir(directory)) {
         const size_t size = strlen(sub) + 1 + strlen(e->d_name) + 1;
         if (!is_wanted(e->d_name, word, endings) || (out->entries != NULL && used + size > room)) {
             continue;

@@ -82,8 +82,8 @@ static bool shows_enough(const rlf_reconstruct *stage, const tally *t)
 {
     const rlf_sight *sight = &stage->sight;
     const int64_t seen = t->seen, more = seen - sight->seen;
-    const bool is_rising = is_learning(stage) && !sight->is_warm && sight->seen > 0 &&
-                           RISE_SHARE * more > sight->seen;
+    const bool is_rising =
+        is_learning(stage) && !sight->is_warm && sight->seen > 0 && RISE_SHARE * more > sight->seen;
     return sight->has_room && seen > 0 && BLIND_SHARE * seen >= t->known && !is_rising;
 }
 
