@@ -85,8 +85,8 @@ typedef struct rlf_frame {
 
 /* RLF_OK, or RLF_ERROR_INVALID with a line that says what is wrong (`who` is put in front of it):
  * depth that is not one plane of rows as long as the rig says, units that are none (1 to 1000000),
- * colour of another size, times beyond RLF_TIME_MAX_NS, a pose that is not finite. rlf_source_next
- * gives no frame that fails. Reads no pixel. */
+ * colour of another size, times beyond RLF_TIME_MAX_NS. Not its pose: who uses that says what is
+ * wrong with it. rlf_source_next gives no frame that fails. Reads no pixel. */
 RLF_API rlf_result rlf_frame_check(const rlf_rig *rig, const rlf_frame *frame, const char *who);
 
 #ifdef __cplusplus

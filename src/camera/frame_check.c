@@ -4,8 +4,6 @@
 #include "base/time_range.h"
 #include "camera/checks.h"
 
-#include <stdio.h>
-
 #define STRIDE_MAX ((ptrdiff_t)1 << 30) /* bytes: no picture's, but a wrong number's */
 #define UNITS_MAX 1e6                   /* counts a metre: a micrometre each */
 
@@ -107,11 +105,6 @@ rlf_result rlf_frame_check(const rlf_rig *rig, const rlf_frame *frame, const cha
     }
     if (result == RLF_OK) {
         result = check_color(rig, frame, who);
-    }
-    if (result == RLF_OK && frame->has_pose) {
-        char field[64];
-        (void)snprintf(field, sizeof(field), "frame %llu: T_world_camera", number_of(frame));
-        result = pose_check(&frame->T_world_camera, who, field);
     }
     return result;
 }

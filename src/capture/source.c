@@ -23,6 +23,10 @@ static rlf_result check_info(const rlf_source_info *info)
         return rlf_fail(RLF_ERROR_INVALID, "source: frames_per_second is %g; use 0 for unknown",
                         rate);
     }
+    if (!rlf_vec3_is_finite(info->gravity)) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "source: gravity is not finite; use 0, 0, 0 for unknown");
+    }
     return rig_check(&info->rig, "source");
 }
 

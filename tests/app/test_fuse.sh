@@ -56,9 +56,10 @@ expect 1 'with [0-9][0-9]* or less' fuse clip --out none.ply --voxel 12 --min-we
 # ---- nothing within the range ------------------------------------------------------------------------
 mkdir near
 cp -r clip/depth clip/depth.txt near/
-for range in '"depth_min_m": 0.01, "depth_max_m": 0.02' '"depth_min_m": 20.0, "depth_max_m": 30.0'; do
-    sed "s/\"depth_min_m\": [0-9.]*, \"depth_max_m\": [0-9.]*/$range/" clip/camera.json >near/camera.json
-    grep -q "$range" near/camera.json || fail "the range is not in camera.json"
+for range in '0.01 0.02' '20.0 30.0'; do
+    sed -e "s/\"depth_min_m\": *[0-9.]*/\"depth_min_m\": ${range% *}/" \
+        -e "s/\"depth_max_m\": *[0-9.]*/\"depth_max_m\": ${range#* }/" clip/camera.json >near/camera.json
+    grep -q "${range#* }" near/camera.json || fail "the range is not in camera.json"
     for option in --out=none.ply --save=none.map --picture=none.png; do
         expect 1 'no depth from .* m in 4 frames: .* % .*units_per_metre' fuse near "$option"
         expect_nothing "${option#*=}"

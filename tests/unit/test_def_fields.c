@@ -199,6 +199,8 @@ static rlf_result try_synthetic(const void *def)
 /* Numbers that count for another choice only: of a box, of depth in metres, of one scene. */
 static const char *const unused[] = {"shape.radius", "shape.height", "points[",
                                      "depth_units_per_metre"};
+/* Numbers that are data, told where they are used: the pose that a source says. */
+static const char *const data[] = {"rlf_frame.T_world_camera"};
 /* Parts of a pipeline's def that have a def of their own here. */
 static const char *const parts[] = {"reconstruct.", "world.", "compositor."};
 
@@ -296,7 +298,8 @@ static int try_field(const def_try *t, const def_field *field)
         name_of(field->path, name, sizeof(name));
         const bool must_refuse =
             is_real && k < 3 &&
-            !begins_with(field->path, unused, sizeof(unused) / sizeof(unused[0]));
+            !begins_with(field->path, unused, sizeof(unused) / sizeof(unused[0])) &&
+            !begins_with(tried, data, sizeof(data) / sizeof(data[0]));
         if ((must_refuse && result != RLF_ERROR_INVALID) ||
             (result < 0 && result != RLF_ERROR_MEMORY && strstr(rlf_error_text(), name) == NULL)) {
             print_error("%s.%s, value %d (%g): result %d, '%s'\n", t->name, field->path, k,

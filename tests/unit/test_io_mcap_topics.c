@@ -359,7 +359,7 @@ static void confidence_is_no_depth(void **state)
     float metres[48];
     uint8_t bgra[192] = {0};
     for (int i = 0; i < 48; i++) {
-        metres[i] = 1.0f + (float)i;
+        metres[i] = 1.0f + 0.05f * (float)i;
     }
     ros_file f = ros_file_open("a");
     const uint16_t m = ros_topic(&f, IO_ROS_IMAGE, "/zed/zed_node/confidence/confidence_map");

@@ -37,8 +37,8 @@ static void a_clock_that_jumps_shows_no_motion(void **state)
     for (int32_t k = 0; k < 2 * FRAMES; k++) {
         draw(&rig, k);
         rlf_frame frame = {.sequence = (uint64_t)k,
-                           .time_ns = k < FRAMES ? INT64_MAX - (FRAMES - 1 - k) * frame_ns
-                                                 : INT64_MIN + (k - FRAMES + 1) * frame_ns,
+                           .time_ns = k < FRAMES ? RLF_TIME_MAX_NS - (FRAMES - 1 - k) * frame_ns
+                                                 : -RLF_TIME_MAX_NS + (k - FRAMES + 1) * frame_ns,
                            .rig = &rig,
                            .depth_f32 = depth,
                            .depth_stride = WIDTH * (ptrdiff_t)sizeof(float)};
