@@ -54,7 +54,8 @@ void *rlf_default_alloc(void *context, size_t size)
         return memory;
     }
 #endif
-    return aligned_alloc(ALIGNMENT, size);
+    size_t rounded = (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+    return rounded >= size ? aligned_alloc(ALIGNMENT, rounded) : NULL;
 }
 
 void rlf_default_free(void *context, void *memory)

@@ -55,7 +55,7 @@ static void measure(rlf_registration *r, const rlf_camera *depth, const rlf_pose
     double shift_y = magnitude(k->fy * T->p.y);
     r->fills_columns = shift_y > shift_x;
     r->shadow_px_m = (float)rlf_max(shift_x, shift_y);
-    double along = r->fills_columns ? height : width;
+    double along = rlf_min(r->fills_columns ? height : width, RLF_IMAGE_SIZE_MAX);
     r->gap_px = along > 1.0 + 1e-6 ? 2 * (int32_t)(along + 0.999) : 0;
 }
 

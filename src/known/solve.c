@@ -320,14 +320,14 @@ static rlf_result check_numbers(const rlf_known_def *def)
 
 static rlf_result check(const rlf_known_def *def, const rlf_known_view *view)
 {
-    bool is_pixel = false;
-    for (int32_t i = 0; i < def->point_count; i++) {
-        is_pixel = is_pixel || def->points[i].has_pixel;
-    }
     if (def->point_count != 0 &&
         (def->point_count < RLF_KNOWN_POINTS_MIN || def->point_count > RLF_KNOWN_POINTS_MAX)) {
         return rlf_fail(RLF_ERROR_INVALID, "point_count is %d: give %d to %d",
                         (int)def->point_count, RLF_KNOWN_POINTS_MIN, RLF_KNOWN_POINTS_MAX);
+    }
+    bool is_pixel = false;
+    for (int32_t i = 0; i < def->point_count; i++) {
+        is_pixel = is_pixel || def->points[i].has_pixel;
     }
     if (is_pixel && view == NULL) {
         return rlf_fail(RLF_ERROR_INVALID, "picked pixels need a frame of the camera");

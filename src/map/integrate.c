@@ -52,8 +52,7 @@ static rlf_fuse_view view_make(const rlf_map *map, const rlf_map_view *in, int32
 static int32_t turns_for(const rlf_map *map)
 {
     const int32_t budget = map->def.blocks_per_frame;
-    const int32_t turns = budget > 0 ? (map->seen_count + budget - 1) / budget : 1;
-    return turns > 1 ? turns : 1;
+    return budget > 0 && map->seen_count > 0 ? (map->seen_count - 1) / budget + 1 : 1;
 }
 
 /* Those that are new, and as many of the others as there is time for, in turn. */
