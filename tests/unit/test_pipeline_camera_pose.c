@@ -147,7 +147,6 @@ static void begin(void)
     }
     f.surface = (rlf_surface){.width = WIDTH,
                               .height = HEIGHT,
-                              .valid_count = PIXELS,
                               .depth = f.depth,
                               .ray_x = f.ray_x,
                               .ray_y = f.ray_y};

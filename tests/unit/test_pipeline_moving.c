@@ -267,6 +267,7 @@ static void what_comes_before_the_room_is_foreground(void **state)
     rlf_pipeline_output out;
     memory.has_thing = true;
     while (rlf_pipeline_step(pipeline, &out) == RLF_OK) {
+        assert_int_equal(out.track->health, RLF_TRACK_GOOD); /* from the first frame on */
         int32_t thing = 0, found = 0;
         for (int32_t i = 0; i < WIDTH * HEIGHT; i++) {
             thing += memory.is_thing[i];

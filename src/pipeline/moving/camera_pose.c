@@ -3,7 +3,6 @@
 
 #include <string.h>
 
-#define FIRST_SHARE 20      /* one pixel in so many of the first frame must have depth */
 #define STARTS 6            /* keyframes that are tried after a lost track */
 #define ROUNDS 2            /* of prediction and alignment for each */
 #define SURE_OVERLAP 0.5    /* after a lost track so much must lie on the room, ... */
@@ -192,8 +191,7 @@ rlf_result camera_pose_find(camera_pose *c, rlf_map *map, const rlf_surface *sur
 {
     c->predict_ms = c->align_ms = 0.0;
     const rlf_track_view view = {.depth = surface->depth, .grey = grey};
-    const int32_t pixels = surface->width * surface->height;
-    if (!c->has_first && FIRST_SHARE * (int64_t)surface->valid_count < pixels) {
+    if (!c->has_first && surface->is_blind) {
         /* A camera that warms up shows nothing that a room could begin with. */
         c->last = (rlf_track_result){.T_world_camera = rlf_tracker_guess(c->tracker, time_ns)};
         c->may_fuse = false;
