@@ -35,7 +35,12 @@ static void pipes_are_refused_at_once(void **state)
         io_buffer_free(&buffer);
     }
     rlf_source *source = NULL;
-    for (size_t i = 6; i < sizeof(names) / sizeof(names[0]); i++) {
+#ifdef RLF_HAVE_MCAP
+    const size_t first_source = 6;
+#else
+    const size_t first_source = 7; /* without MCAP that file is not looked at */
+#endif
+    for (size_t i = first_source; i < sizeof(names) / sizeof(names[0]); i++) {
         test_expect_error(rlf_open_source(test_path(names[i]), NULL, &source), RLF_ERROR_IO,
                           names[i], "not a regular file", NULL);
     }

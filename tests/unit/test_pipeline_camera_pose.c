@@ -145,11 +145,8 @@ static void begin(void)
         f.ray_x[i] = (float)((i % WIDTH - f.rig.depth.cx) / f.rig.depth.fx);
         f.ray_y[i] = (float)((i / WIDTH - f.rig.depth.cy) / f.rig.depth.fy);
     }
-    f.surface = (rlf_surface){.width = WIDTH,
-                              .height = HEIGHT,
-                              .depth = f.depth,
-                              .ray_x = f.ray_x,
-                              .ray_y = f.ray_y};
+    f.surface = (rlf_surface){
+        .width = WIDTH, .height = HEIGHT, .depth = f.depth, .ray_x = f.ray_x, .ray_y = f.ray_y};
     rlf_map_def def = rlf_map_def_default();
     def.rig = f.rig;
     def.voxel_m = 0.02;

@@ -83,6 +83,10 @@ static rlf_result add_chunk(bag *self, int64_t position, const bag_record *recor
                         "%s: a chunk is compressed with \"%s\": run rosbag decompress",
                         self->file.path, record->compression);
     }
+    rlf_result result = bag_check_packing(self->file.path, packing);
+    if (result != RLF_OK) {
+        return result;
+    }
     const bool is_plain = packing == BAG_PACKING_NONE;
     /* LZ4 packs 255 bytes into one at most. */
     if ((is_plain && record->size != record->data_size) ||
@@ -91,8 +95,8 @@ static rlf_result add_chunk(bag *self, int64_t position, const bag_record *recor
                         "%s: a chunk of %u bytes claims to hold %u: copy or record it again",
                         self->file.path, (unsigned)record->data_size, (unsigned)record->size);
     }
-    rlf_result result = bag_grow(self, (void **)&self->chunks, self->chunk_count,
-                                 &self->chunk_capacity, sizeof(self->chunks[0]), CHUNKS_MAX);
+    result = bag_grow(self, (void **)&self->chunks, self->chunk_count, &self->chunk_capacity,
+                      sizeof(self->chunks[0]), CHUNKS_MAX);
     if (result == RLF_OK) {
         const int64_t end = position + record->data + record->data_size;
         self->chunks[self->chunk_count++] = (bag_chunk){
