@@ -40,6 +40,10 @@ typedef struct rlf_rig {
                               rlf_source_observe give depth from which it is taken away */
 } rlf_rig;
 
+/* What is taken of a camera of which no more is known: 0.1 to 8 m, a structured-light sensor's noise,
+ * no colour. `depth` is zero: set it, and whatever else is known better. */
+RLF_API rlf_rig rlf_rig_default(void);
+
 /* What a source says about a frame, bits of rlf_frame.flags. */
 typedef enum rlf_frame_flag {
     /* The driver gave mirrored pictures. The planes here are not: x is right. */

@@ -8,16 +8,6 @@
 #define FOCAL_MEANING "the focal length in pixels, between a hundredth and a hundred times the size"
 #define CENTRE_MEANING "the principal point in pixels, no farther than two sizes from the picture"
 
-/* What a folder's sensor can see when camera.json does not say. A camera writes 0 where it is too
- * near to measure, so whatever it did write is believed down to the nearest that any of its class
- * measures. */
-#define DEPTH_MIN_DEFAULT_M 0.1
-#define DEPTH_MAX_DEFAULT_M 8.0
-
-/* Quadratic growth as for every triangulating sensor (Khoshelham and Oude Elberink 2012), with the
- * factor read off recordings of still rooms: 2 mm at 1 m, 6 mm at 2 m, 16 mm at 3.5 m. */
-static const rlf_depth_noise default_noise = {0.0008, 0.0, 0.0012};
-
 /* Deviation from a rotation that rounding to four decimals can cause. */
 #define ROTATION_TOLERANCE 1e-3
 /* Of the cosine of half an angle: the rotation and the quaternion were written as one. */
@@ -287,19 +277,10 @@ rlf_result io_rig_read_motion(const io_json_object *top, rlf_rig *rig)
     return result;
 }
 
-rlf_rig io_rig_default(void)
-{
-    const rlf_rig rig = {.T_color_depth = rlf_pose_identity(),
-                         .depth_min_m = DEPTH_MIN_DEFAULT_M,
-                         .depth_max_m = DEPTH_MAX_DEFAULT_M,
-                         .noise = default_noise};
-    return rig;
-}
-
 rlf_result io_rig_from_json(const io_json_object *top, rlf_rig *out, double *out_units_per_metre)
 {
     static const char *const known[] = {"depth", "color", "depth_to_color", "note"};
-    rlf_rig rig = io_rig_default();
+    rlf_rig rig = rlf_rig_default();
     double units = 0.0;
     rlf_result result = read_depth(top, &rig, &units);
     if (result == RLF_OK) {

@@ -6,9 +6,6 @@
 #include "io/file.h"
 #include "io/json.h"
 
-/* What holds of a sensor that says nothing about itself: range, noise, no transform, no colour. */
-rlf_rig io_rig_default(void);
-
 rlf_result io_rig_parse(const io_bytes *file, rlf_rig *out, double *out_units_per_metre);
 
 /* The same of a parsed document. */

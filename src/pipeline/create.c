@@ -7,20 +7,19 @@
 
 #define THROWS_MAX 256 /* bodies that there is room for beside a scene's */
 
-rlf_pipeline_def rlf_pipeline_def_default(rlf_profile profile, rlf_source *source, rlf_pool *pool)
+/* A rig that is NULL leaves the settings of the stages zero: such a def is refused. */
+static rlf_pipeline_def def_of(rlf_profile profile, const rlf_rig *rig, rlf_pool *pool)
 {
     rlf_pipeline_def def;
     memset(&def, 0, sizeof(def));
     def.cookie = RLF_DEF_COOKIE;
     def.profile = profile;
-    def.source = source;
     def.enable_render = true;
     def.T_world_camera = rlf_pose_identity();
     def.pool = pool;
-    if (!RLF_ASSERT(source != NULL)) {
+    if (rig == NULL) {
         return def;
     }
-    const rlf_rig *rig = &rlf_source_get_info(source)->rig;
     bool is_thesis = profile == RLF_PROFILE_THESIS;
     def.reconstruct = rlf_reconstruct_def_default(profile, rig);
     def.reconstruct.pool = pool;
@@ -32,6 +31,19 @@ rlf_pipeline_def rlf_pipeline_def_default(rlf_profile profile, rlf_source *sourc
     def.compositor.occlusion = is_thesis ? RLF_OCCLUSION_THESIS : RLF_OCCLUSION_SOFT;
     def.compositor.pool = pool;
     return def;
+}
+
+rlf_pipeline_def rlf_pipeline_def_default(rlf_profile profile, rlf_source *source, rlf_pool *pool)
+{
+    const bool is_there = RLF_ASSERT(source != NULL);
+    rlf_pipeline_def def = def_of(profile, is_there ? &rlf_source_get_info(source)->rig : NULL, pool);
+    def.source = source;
+    return def;
+}
+
+rlf_pipeline_def rlf_pipeline_def_for_rig(rlf_profile profile, const rlf_rig *rig, rlf_pool *pool)
+{
+    return def_of(profile, RLF_ASSERT(rig != NULL) ? rig : NULL, pool);
 }
 
 static rlf_result copy_scene(rlf_pipeline *p, const rlf_scene *scene)
@@ -157,13 +169,24 @@ static rlf_result check_def(const rlf_pipeline_def *def)
     return pose_check(&def->T_world_camera, "pipeline def", "T_world_camera");
 }
 
+/* Without a source frames are pushed. */
+static rlf_result find_source(rlf_pipeline *p)
+{
+    if (p->def.source != NULL) {
+        return RLF_OK;
+    }
+    rlf_result result = pushed_frame_open(&p->pushed, &p->def.reconstruct.rig);
+    p->def.source = p->pushed.source;
+    return result;
+}
+
 rlf_result rlf_pipeline_create(const rlf_pipeline_def *def, rlf_pipeline **out)
 {
     if (!RLF_ASSERT(out != NULL)) {
         return RLF_ERROR_INVALID;
     }
     *out = NULL;
-    if (!RLF_ASSERT(def != NULL && def->cookie == RLF_DEF_COOKIE && def->source != NULL)) {
+    if (!RLF_ASSERT(def != NULL && def->cookie == RLF_DEF_COOKIE)) {
         return rlf_fail(RLF_ERROR_INVALID, "pipeline def: start from rlf_pipeline_def_default");
     }
     rlf_result result = check_def(def);
@@ -175,7 +198,10 @@ rlf_result rlf_pipeline_create(const rlf_pipeline_def *def, rlf_pipeline **out)
         return RLF_ERROR_MEMORY;
     }
     p->def = *def;
-    result = copy_scene(p, def->scene);
+    result = find_source(p);
+    if (result == RLF_OK) {
+        result = copy_scene(p, def->scene);
+    }
     if (result == RLF_OK) {
         result = known_models_create(def->scene, &p->known);
     }
@@ -220,5 +246,6 @@ void rlf_pipeline_destroy(rlf_pipeline **pipeline)
     rlf_free(p->ray_x);
     rlf_free(p->ray_y);
     rlf_free(p->scene.bodies);
+    pushed_frame_close(&p->pushed);
     rlf_free(p);
 }

@@ -9,6 +9,7 @@
 #include "pipeline/hands.h"
 #include "pipeline/known.h"
 #include "pipeline/moving/room_view.h"
+#include "pipeline/push.h"
 
 #define OVERLAY_LINES_MAX 32
 #define OVERLAY_LINE_SIZE 128
@@ -18,6 +19,7 @@
 
 struct rlf_pipeline {
     rlf_pipeline_def def;
+    pushed_frame pushed;
     rlf_scene scene;              /* copy; hulls stay the caller's */
     rlf_reconstruct *reconstruct; /* of a camera that stands */
     camera camera;

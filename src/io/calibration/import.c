@@ -110,7 +110,7 @@ static rlf_result read_part(const io_json_object *top, part *out)
 
 static rlf_result parse(const io_bytes *file, part *out)
 {
-    *out = (part){.rig = io_rig_default(), .units_per_metre = UNITS_DEFAULT};
+    *out = (part){.rig = rlf_rig_default(), .units_per_metre = UNITS_DEFAULT};
     json_t *document = NULL;
     io_calibration_kind kind = IO_CALIBRATION_JSON;
     rlf_result result = io_calibration_kind_of(file, &kind);

@@ -230,7 +230,7 @@ static rlf_result make_color_camera(folder *self)
 /* Without camera.json: one camera for both pictures. */
 static rlf_result make_rig(folder *self)
 {
-    const rlf_rig defaults = io_rig_default();
+    const rlf_rig defaults = rlf_rig_default();
     rlf_rig *rig = &self->rig;
     rlf_result result = make_depth_camera(self);
     if (result == RLF_OK && self->layout.color.count > 0) {

@@ -14,7 +14,7 @@ static void set_default_rig(io_log *log)
 {
     const rlf_camera camera = {
         .width = 640, .height = 480, .fx = 528.0, .fy = 528.0, .cx = 320.0, .cy = 240.0};
-    log->rig = io_rig_default();
+    log->rig = rlf_rig_default();
     log->rig.depth = camera;
     log->rig.color = camera;
     log->rig.has_color = true;

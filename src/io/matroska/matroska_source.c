@@ -196,7 +196,7 @@ static void set_size(const mkv_track *track, rlf_camera *out)
 static rlf_result read_attached(matroska *self)
 {
     mkv_file *f = &self->file;
-    self->rig = io_rig_default();
+    self->rig = rlf_rig_default();
     self->rig.noise = k4a_noise;
     self->rig.has_color = self->color.track >= 0;
     set_size(&f->tracks[self->depth.track], &self->rig.depth);

@@ -14,11 +14,6 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-/* Of a depth camera of which nobody says what it can see; as camera.json has it. */
-#define DEPTH_MIN_M 0.1
-#define DEPTH_MAX_M 8.0
-static const rlf_depth_noise default_noise = {0.0008, 0.0, 0.0012};
-
 typedef struct mcap {
     char path[IO_PATH_MAX];
     io_mcap_reader *reader;
@@ -206,10 +201,7 @@ static void find_color_camera(mcap *m)
 
 static rlf_result find_rig(const rlf_address *address, mcap *m)
 {
-    m->rig = (rlf_rig){.T_color_depth = rlf_pose_identity(),
-                       .depth_min_m = DEPTH_MIN_M,
-                       .depth_max_m = DEPTH_MAX_M,
-                       .noise = default_noise};
+    m->rig = rlf_rig_default();
     m->units_per_metre = 1000.0; /* what 16UC1 means (REP 118) */
     if (address->rig != NULL) {
         m->rig = *address->rig;

@@ -58,7 +58,7 @@ static rlf_result set_rig(const rlf_address *address, pcd *p)
     double units = 0.0; /* points are in metres */
     bool is_found = false;
     rlf_camera lens;
-    p->rig = io_rig_default();
+    p->rig = rlf_rig_default();
     if (address->rig == NULL && io_pcd_lens_fit(&p->header, &p->points, &lens)) {
         p->rig.depth = lens;
         is_found = true;

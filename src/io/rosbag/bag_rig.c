@@ -160,7 +160,7 @@ rlf_result bag_rig_read(const rlf_address *address, const bag_topics *topics, ba
 {
     char problem[256] = "";
     memset(out, 0, sizeof(*out));
-    out->rig = io_rig_default();
+    out->rig = rlf_rig_default();
     out->units_per_metre = 1000.0;
     read_device(topics, out);
     const char *topic = topics->pictures[topics->depth].name;

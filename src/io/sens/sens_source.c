@@ -108,7 +108,7 @@ static rlf_result set_rig(const rlf_address *address, const sens_header *h, io_l
         log->units_per_metre = address->units_per_metre;
         return RLF_OK;
     }
-    log->rig = io_rig_default();
+    log->rig = rlf_rig_default();
     set_camera(h->depth_intrinsic, h->depth_width, h->depth_height, &log->rig.depth);
     set_camera(h->color_intrinsic, h->color_width, h->color_height, &log->rig.color);
     log->rig.has_color = h->color_width > 0;
