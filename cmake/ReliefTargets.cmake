@@ -72,6 +72,28 @@ function(relief_use_if target name option definition)
   set_property(TARGET ${target} PROPERTY RELIEF_PACKAGES_${name} ${ARGN})
 endfunction()
 
+# relief_python_found(OUT): whether RELIEF_WITH_PYTHON is ON, or AUTO with pybind11 and NumPy there.
+function(relief_python_found out)
+  set(${out} OFF PARENT_SCOPE)
+  if(NOT RELIEF_WITH_PYTHON OR NOT TARGET relief_io OR RELIEF_SANITIZE)
+    return()
+  endif()
+  set(python /usr/bin/python3)
+  if(Python_EXECUTABLE)
+    set(python ${Python_EXECUTABLE})
+  endif()
+  execute_process(COMMAND ${python} -c "import numpy, pybind11" RESULT_VARIABLE missing
+                  OUTPUT_QUIET ERROR_QUIET)
+  if(missing EQUAL 0)
+    set(${out} ON PARENT_SCOPE)
+  elseif(NOT RELIEF_WITH_PYTHON STREQUAL "AUTO")
+    message(FATAL_ERROR "RELIEF_WITH_PYTHON is ON, but ${python} has no pybind11 and NumPy: "
+                        "apt-get install pybind11-dev python3-pybind11 python3-numpy python3-dev")
+  else()
+    message(STATUS "pybind11: not installed, RELIEF_WITH_PYTHON is OFF")
+  endif()
+endfunction()
+
 # relief_optional(OPTION HELP MODULE...): an option that is ON where pkg-config finds the modules.
 function(relief_optional option help)
   if(DEFINED ${option})

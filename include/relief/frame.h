@@ -40,8 +40,8 @@ typedef struct rlf_rig {
                               rlf_source_observe give depth from which it is taken away */
 } rlf_rig;
 
-/* What is taken of a camera of which no more is known: 0.1 to 8 m, a structured-light sensor's noise,
- * no colour. `depth` is zero: set it, and whatever else is known better. */
+/* What is taken of a camera of which no more is known: 0.1 to 8 m, a structured-light sensor's
+ * noise, no colour. `depth` is zero: set it, and whatever else is known better. */
 RLF_API rlf_rig rlf_rig_default(void);
 
 /* What a source says about a frame, bits of rlf_frame.flags. */

@@ -82,7 +82,7 @@ typedef enum rlf_pose_origin {
 typedef struct rlf_pipeline_def {
     uint32_t cookie;
     rlf_profile profile;
-    rlf_source *source; /* borrowed for the pipeline's life; NULL: frames are pushed */
+    rlf_source *source;              /* borrowed for the pipeline's life; NULL: frames are pushed */
     rlf_reconstruct_def reconstruct; /* set by rlf_pipeline_def_default from profile and source */
     rlf_world_def world; /* its capacities are raised to what the scene needs, and 256 throws */
     rlf_compositor_def compositor;
@@ -184,11 +184,11 @@ RLF_API void rlf_pipeline_set_overlay(rlf_pipeline *pipeline, const char *const 
  * does the first frame after a second in which ten or more are missing. While no frame comes
  * physics waits: bodies would rest on what may have gone meanwhile. */
 RLF_API rlf_result rlf_pipeline_step(rlf_pipeline *pipeline, rlf_pipeline_output *out);
-/* rlf_pipeline_step with a frame of the caller's, of the def's rig; frame->rig is not looked at. Its
- * planes are read during the call and borrowed by out->frame. RLF_ERROR_INVALID names what is wrong
- * with the frame (rlf_frame_check), or says that the pipeline has a source: the pipeline is then as
- * it was. A step of a pipeline without source gives RLF_NO_FRAME. Thread-safety: one thread at a
- * time, as all calls: a callback may push from its own thread. */
+/* rlf_pipeline_step with a frame of the caller's, of the def's rig; frame->rig is not looked at.
+ * Its planes are read during the call and borrowed by out->frame. RLF_ERROR_INVALID names what is
+ * wrong with the frame (rlf_frame_check), or says that the pipeline has a source: the pipeline is
+ * then as it was. A step of a pipeline without source gives RLF_NO_FRAME. Thread-safety: one thread
+ * at a time, as all calls: a callback may push from its own thread. */
 RLF_API rlf_result rlf_pipeline_push(rlf_pipeline *pipeline, const rlf_frame *frame,
                                      rlf_pipeline_output *out);
 /* Draws the last frame again, e.g. after a change of view while paused. */

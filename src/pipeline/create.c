@@ -36,7 +36,8 @@ static rlf_pipeline_def def_of(rlf_profile profile, const rlf_rig *rig, rlf_pool
 rlf_pipeline_def rlf_pipeline_def_default(rlf_profile profile, rlf_source *source, rlf_pool *pool)
 {
     const bool is_there = RLF_ASSERT(source != NULL);
-    rlf_pipeline_def def = def_of(profile, is_there ? &rlf_source_get_info(source)->rig : NULL, pool);
+    rlf_pipeline_def def =
+        def_of(profile, is_there ? &rlf_source_get_info(source)->rig : NULL, pool);
     def.source = source;
     return def;
 }
