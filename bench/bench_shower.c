@@ -2,8 +2,6 @@
 #define _POSIX_C_SOURCE 200809L
 #include "bench_physics.h"
 
-#include "pipeline/grid.h"
-
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -65,7 +63,7 @@ bool room_next(room *r)
     r->first_time_ns = r->first_time_ns < 0 ? frame.time_ns : r->first_time_ns;
     r->time_s = 1e-9 * (double)(frame.time_ns - r->first_time_ns);
     double start = now_ms(true);
-    grid_from_surface(surface, &camera, r->regions, ROOM_REGIONS_MAX, &r->grid);
+    rlf_grid_from_surface(surface, &camera, r->regions, ROOM_REGIONS_MAX, &r->grid);
     r->grid.foreground.thickness = far_side_thicken(&r->far, surface, down);
     r->grid_ms = now_ms(true) - start;
     return true;

@@ -216,6 +216,13 @@ RLF_API rlf_result rlf_pipeline_set_hands(rlf_pipeline *pipeline, bool is_on);
 RLF_API const rlf_hands *rlf_pipeline_hands(const rlf_pipeline *pipeline);
 /* The room of a moving camera; NULL while there is none. For questions and views between steps. */
 RLF_API rlf_map *rlf_pipeline_get_map(rlf_pipeline *pipeline);
+/* A surface as physics sees it, for a world of one's own and for questions (query.h): views of the
+ * planes, valid as long as the surface. `regions` has room for `region_capacity` entries, and
+ * further regions are left out; NULL with 0: none, which the live method does without. Until the
+ * background is known all that is seen is one endlessly thick sheet. Thread-safety: safe. */
+RLF_API void rlf_grid_from_surface(const rlf_surface *surface, const rlf_pose *T_world_camera,
+                                   rlf_grid_region *regions, int32_t region_capacity,
+                                   rlf_grid *out);
 /* The world, to add or throw bodies between steps. */
 RLF_API rlf_world *rlf_pipeline_get_world(rlf_pipeline *pipeline);
 

@@ -1,5 +1,5 @@
 /* Views of a surface for physics. */
-#include "pipeline/grid.h"
+#include "relief/pipeline.h"
 
 static bool project_to_grid(const void *context, rlf_vec3 p, double *out_u, double *out_v)
 {
@@ -54,9 +54,13 @@ static int32_t list_regions(const rlf_surface *s, rlf_grid_region *regions, int3
     return count;
 }
 
-void grid_from_surface(const rlf_surface *surface, const rlf_pose *T_world_camera,
-                       rlf_grid_region *regions, int32_t region_capacity, rlf_grid *out)
+void rlf_grid_from_surface(const rlf_surface *surface, const rlf_pose *T_world_camera,
+                           rlf_grid_region *regions, int32_t region_capacity, rlf_grid *out)
 {
+    if (!RLF_ASSERT(surface != NULL && T_world_camera != NULL && out != NULL) ||
+        !RLF_ASSERT(regions != NULL || region_capacity == 0)) {
+        return;
+    }
     *out = (rlf_grid){
         .width = surface->width,
         .height = surface->height,

@@ -1,6 +1,5 @@
 /* The frame loop: capture, surface, physics, render, in this order, one frame at a time. */
 #include "base/cookie.h"
-#include "pipeline/grid.h"
 #include "pipeline/state.h"
 
 #include <string.h>
@@ -91,7 +90,7 @@ static void seek_gravity(rlf_pipeline *p)
 static void make_grid(rlf_pipeline *p, rlf_grid *out)
 {
     const rlf_surface *s = p->last.surface;
-    grid_from_surface(s, &p->camera.T_world, p->regions, p->region_capacity, out);
+    rlf_grid_from_surface(s, &p->camera.T_world, p->regions, p->region_capacity, out);
     if (p->def.world.method == RLF_PHYSICS_LIVE && out->foreground.thickness != NULL) {
         rlf_vec3 gravity = rlf_world_get_snapshot(p->world)->gravity;
         rlf_vec3 down = rlf_rotate(rlf_quat_conjugate(p->camera.T_world.q), gravity);
@@ -252,6 +251,21 @@ rlf_result rlf_pipeline_step(rlf_pipeline *p, rlf_pipeline_output *out)
     last->frame_index = p->frame_index++;
     *out = *last;
     return RLF_OK;
+}
+
+rlf_result rlf_pipeline_push(rlf_pipeline *p, const rlf_frame *frame, rlf_pipeline_output *out)
+{
+    if (!RLF_ASSERT(p != NULL && frame != NULL && out != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    if (p->pushed.source == NULL) {
+        return rlf_fail(RLF_ERROR_INVALID, "pipeline: it has a source: call rlf_pipeline_step, or "
+                                           "make its def with rlf_pipeline_def_for_rig");
+    }
+    pushed_frame_put(&p->pushed, frame);
+    const rlf_result result = rlf_pipeline_step(p, out);
+    pushed_frame_put(&p->pushed, NULL);
+    return result;
 }
 
 rlf_result rlf_pipeline_redraw(rlf_pipeline *p, rlf_pipeline_output *out)

@@ -12,6 +12,8 @@ typedef struct pushed_frame {
 
 /* `slot` stays where it is until pushed_frame_close. */
 rlf_result pushed_frame_open(pushed_frame *slot, const rlf_rig *rig);
+/* The next frame; NULL = none. */
+void pushed_frame_put(pushed_frame *slot, const rlf_frame *frame);
 void pushed_frame_close(pushed_frame *slot);
 
 #endif
