@@ -103,6 +103,8 @@ void bind_source(py::module_ &m);
 // surface.cpp, world.cpp, pipeline.cpp -----------------------------------------------------------
 
 py::object surface_of(const std::shared_ptr<Owner> &owner, const rlf_surface *surface);
+// The surface in C; TypeError when it is none, ValueError when its pipeline is closed.
+const rlf_surface *surface_in(const py::object &surface);
 void bind_surface(py::module_ &m);
 
 // `get` gives the world while its owner is open.

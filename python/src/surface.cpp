@@ -102,6 +102,16 @@ py::object surface_of(const std::shared_ptr<Owner> &owner, const rlf_surface *su
     return py::cast(Surface{owner, surface});
 }
 
+const rlf_surface *surface_in(const py::object &surface)
+{
+    if (!py::isinstance<Surface>(surface)) {
+        throw py::type_error("surface: use a Surface, as Step.surface gives it");
+    }
+    const auto &found = surface.cast<const Surface &>();
+    found.owner->need_open();
+    return found.s;
+}
+
 void bind_surface(py::module_ &m)
 {
     bind_region(m);

@@ -128,7 +128,7 @@ World make_world(const py::object &gravity, int threads)
     return {owner, owner->world, true};
 }
 
-void advance(World &w, double dt)
+void advance(World &w, double dt, const py::object &surface, const py::object &camera_pose)
 {
     rlf_world *world = w.open();
     if (!w.is_own) {
@@ -138,8 +138,15 @@ void advance(World &w, double dt)
         throw py::value_error("dt: use more than 0 and at most 1 second");
     }
     const Busy busy(*w.owner);
+    rlf_grid grid;
+    const rlf_surface *seen = surface.is_none() ? nullptr : surface_in(surface);
+    if (seen != nullptr) {
+        const rlf_pose T = camera_pose.is_none() ? rlf_pose_identity()
+                                                 : pose_from(camera_pose, "camera_pose");
+        rlf_grid_from_surface(seen, &T, nullptr, 0, &grid);
+    }
     const py::gil_scoped_release release;
-    rlf_world_advance(world, nullptr, dt);
+    rlf_world_advance(world, seen != nullptr ? &grid : nullptr, dt);
 }
 
 void set_body(Body &b, const py::object &pose, const py::object &velocity, const py::object &spin)
@@ -317,8 +324,10 @@ void bind_world(py::module_ &m)
              "Adds a body: shape \"box\" (size), \"sphere\" (radius), \"capsule\" or \"cylinder\" "
              "(radius, height along y). More by name: name, position, pose, velocity, "
              "angular_velocity, mass, restitution, friction, color, is_kinematic.")
-        .def("advance", &advance, py::arg("dt"),
-             "By dt seconds through empty space; a pipeline's world is advanced by its steps.")
+        .def("advance", &advance, py::arg("dt"), py::arg("surface") = py::none(),
+             py::arg("camera_pose") = py::none(),
+             "By dt seconds, against a Surface seen from camera_pose, or through empty space. A "
+             "pipeline's world is advanced by its steps.")
         .def("cast_ray", &cast_ray, py::arg("origin"), py::arg("direction"), py::arg("length"),
              "(body, distance, point, normal) of the first body on the ray, or None.")
         .def("set_gravity", &set_gravity, py::arg("gravity"), "m/s^2.")

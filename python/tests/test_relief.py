@@ -203,6 +203,27 @@ def test_bodies_answer_for_themselves():
         body.position
 
 
+def test_a_world_of_ones_own_meets_the_real_surface():
+    worlds = [relief.World(gravity=(0, 0, g)) for g in (9.81, 1.62)]
+    balls = [world.add("sphere", radius=0.1, position=(0, 0, 1)) for world in worlds]
+    with pushed(render=False) as p:
+        for i in range(20):
+            step = p.push(floor(), time=i / 30)
+            for world in worlds:
+                world.advance(1 / 30, step.surface)
+        with pytest.raises(ValueError, match="steps advance it"):
+            p.world.advance(0.1)
+        surface = step.surface
+    assert balls[0].position[2] > balls[1].position[2] > 1
+    assert balls[0].position[2] < 1.91
+    with pytest.raises(ValueError, match="closed"):
+        worlds[0].advance(0.1, surface)
+    with pytest.raises(TypeError, match="Surface"):
+        worlds[0].advance(0.1, 3)
+    with pytest.raises(ValueError, match="dt"):
+        worlds[0].advance(2)
+
+
 @pytest.mark.parametrize(
     "more, words",
     [
