@@ -6,8 +6,8 @@
 
 #define KEEP_NS 1000000000 /* a standing camera's background is kept so often */
 #define TOLD_NS 700000000  /* within which it is told that the camera moves */
-#define LEFT_M 0.005       /* poses of a source that differ by more moved, */
-#define LEFT_RAD 0.005     /* or by more than that */
+#define LEFT_M 0.002       /* poses of a source that differ by more moved, */
+#define LEFT_RAD 0.002     /* or by more than that */
 
 void camera_stop(rlf_pipeline *p)
 {
