@@ -13,6 +13,8 @@
 #include "kernel/kernel.h"
 #include "math/solve_six.h"
 
+#include <math.h>
+
 enum {
     PASSES = 5,
     PERIOD = 8,        /* frames between two views that are kept: the older is 8 to 16 frames old */
@@ -29,10 +31,13 @@ static const double rest_sigmas = 3.0;   /* what is nearer to rest than that is 
 static const double told_square = 64.0;  /* sigmas of a part's motion, squared */
 static const double off_share = 0.25;    /* of the motion that a point may be off: it is curved */
 static const double least_gain = 0.5;    /* of a part's motion that must be gained over rest */
-static const double least_asked = 0.75;  /* of the parts that would show the motion: more move, */
-static const double least_seen = 0.55;   /* and so much of all parts */
+static const double least_parts = 0.75;  /* of the parts move, and more, */
+static const double least_whole = 0.65;  /* or this share, which must determine all of the motion */
+static const double least_asked = 0.75;  /* and of those that would show the motion more than this */
+static const double least_share = 3e-3;  /* of the information, for a direction, ... */
+static const double least_own = 0.01;    /* ... and so much of that is not another direction's */
 static const double least_facing = 0.25; /* cosine: depth of a grazing face says little */
-static const double ridge = 1e-3;
+static const double ridge = 3e-3; /* of the information, for rest */
 
 typedef struct ego_job {
     const image_grid *grid;
@@ -78,9 +83,12 @@ static double sigma_at(const ego_job *job, int32_t k)
     return 1.41421356 * rlf_kernel_sigma(job->noise, (float)from->point.z) * facing;
 }
 
-/* One step of Gauss and Newton. */
+/* One step of Gauss and Newton. A direction that hardly any point determines goes back to rest. */
 static void improve(const ego_job *job, double gate, rlf_pose *pose)
 {
+    const double twice = pose->q.w < 0.0 ? -2.0 : 2.0; /* small turns */
+    const double now[6] = {pose->p.x,           pose->p.y,           pose->p.z,
+                           twice * pose->q.x, twice * pose->q.y, twice * pose->q.z};
     double a[6][6] = {{0}}, b[6] = {0}, x[6], total = 0.0;
     for (int32_t k = 0; k < job->view->count; k++) {
         rlf_vec3 p, n;
@@ -102,6 +110,7 @@ static void improve(const ego_job *job, double gate, rlf_pose *pose)
     }
     for (int r = 0; r < 6; r++) {
         a[r][r] += ridge * (total + 1.0);
+        b[r] -= ridge * (total + 1.0) * now[r];
     }
     math_solve_six(a, b, x);
     const rlf_pose step = {{x[0], x[1], x[2]},
@@ -122,10 +131,10 @@ static double square_of(double off, double sigma)
     return rlf_min(off * off / (sigma * sigma), tukey * tukey);
 }
 
-static ego_part *part_of(const image_grid *grid, int32_t pixel, ego_part parts[PARTS])
+static int32_t part_index(const image_grid *grid, int32_t pixel)
 {
     const int32_t x = pixel % grid->width, y = pixel / grid->width;
-    return &parts[y * PARTS_Y / grid->height * PARTS_X + x * PARTS_X / grid->width];
+    return y * PARTS_Y / grid->height * PARTS_X + x * PARTS_X / grid->width;
 }
 
 static void ask(const ego_job *job, const rlf_pose *pose, ego_part parts[PARTS])
@@ -139,7 +148,7 @@ static void ask(const ego_job *job, const rlf_pose *pose, ego_part parts[PARTS])
             !distance_to(job, k, pose, &p, &n, &off)) {
             continue;
         }
-        ego_part *part = part_of(job->grid, from->pixel, parts);
+        ego_part *part = &parts[part_index(job->grid, from->pixel)];
         const double sigma = sigma_at(job, k), said = rlf_dot(n, rlf_sub(p, from->point));
         const double bound = tukey * sigma + off_share * (said < 0.0 ? -said : said);
         const double fit = square_of(off * tukey, bound);
@@ -150,21 +159,62 @@ static void ask(const ego_job *job, const rlf_pose *pose, ego_part parts[PARTS])
     }
 }
 
-/* One large thing leaves some of the picture at rest. */
-static bool is_everywhere(const ego_part parts[PARTS])
+/* Whether points of the parts that are marked determine all six directions of a motion. A board is
+ * one plane: it takes the others from what is at rest. By Cholesky's steps on the normal equations
+ * with a diagonal of 1: each is what a direction tells that those before it do not. */
+static bool is_determined(const ego_job *job, const bool marked[PARTS])
 {
+    double a[6][6] = {{0}}, total = 0.0;
+    for (int32_t k = 0; k < job->view->count; k++) {
+        const rlf_ego_point *from = &job->view->points[k];
+        const double sigma = sigma_at(job, k);
+        if (!marked[part_index(job->grid, from->pixel)]) {
+            continue;
+        }
+        const rlf_vec3 n = from->normal;
+        const rlf_vec3 turn = rlf_scale(rlf_cross(from->point, n), 1.0 / from->point.z);
+        const double row[6] = {n.x, n.y, n.z, turn.x, turn.y, turn.z};
+        total += 1.0 / (sigma * sigma);
+        for (int r = 0; r < 6; r++) {
+            for (int c = 0; c <= r; c++) {
+                a[r][c] += row[r] * row[c] / (sigma * sigma);
+            }
+        }
+    }
+    bool is = true;
+    for (int r = 0; r < 6 && is; r++) {
+        const double whole = a[r][r];
+        for (int c = 0; c < r; c++) {
+            for (int k = 0; k < c; k++) {
+                a[r][c] -= a[r][k] * a[c][k];
+            }
+            a[r][c] /= a[c][c];
+            a[r][r] -= a[r][c] * a[r][c];
+        }
+        is = whole > least_share * total && a[r][r] > least_own * whole;
+        a[r][r] = is ? sqrt(a[r][r]) : 1.0;
+    }
+    return is;
+}
+
+/* One large thing leaves some of the picture at rest. */
+static bool is_everywhere(const ego_job *job, const ego_part parts[PARTS])
+{
+    bool moves[PARTS] = {false};
     int32_t seen = 0, asked = 0, moving = 0;
     for (int32_t k = 0; k < PARTS; k++) {
         const ego_part *part = &parts[k];
-        if (part->points >= FEWEST_OF_PART) {
-            const bool is_asked = part->said > told_square;
-            seen++;
-            asked += is_asked;
-            moving += is_asked && 2 * part->fitting > part->points && part->gain > told_square &&
-                      part->gain > least_gain * part->said;
-        }
+        const bool is_seen = part->points >= FEWEST_OF_PART;
+        const bool is_asked = is_seen && part->said > told_square;
+        moves[k] = is_asked && 2 * part->fitting > part->points && part->gain > told_square &&
+                   part->gain > least_gain * part->said;
+        seen += is_seen;
+        asked += is_asked;
+        moving += moves[k];
     }
-    return 2 * moving >= PARTS && moving > least_seen * seen && moving > least_asked * asked;
+    const bool is_most = 3 * moving >= PARTS && moving > least_asked * asked;
+    return is_most && (moving > least_parts * seen ||
+                       (moving > least_whole * seen && is_determined(job, moves)));
 }
 
 /* What is where it was: as many parts of the picture as more than half of their points say so; and
@@ -185,7 +235,7 @@ static ego_rest find_rest(const ego_job *job)
         rlf_vec3 p, n;
         double off, sigma = sigma_at(job, k);
         if (distance_to(job, k, &rest, &p, &n, &off)) {
-            ego_part *part = part_of(job->grid, job->view->points[k].pixel, parts);
+            ego_part *part = &parts[part_index(job->grid, job->view->points[k].pixel)];
             points++;
             sum += square_of(off, sigma);
             part->points++;
@@ -214,7 +264,7 @@ static bool has_moved(const ego_job *job, rlf_pose *pose)
         improve(job, gates_m[pass], pose);
     }
     ask(job, pose, parts);
-    return is_everywhere(parts);
+    return is_everywhere(job, parts);
 }
 
 void rlf_ego_motion_reset(rlf_ego_motion *ego)
