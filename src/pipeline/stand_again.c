@@ -3,8 +3,8 @@
 
 #define STANDS_NS 2000000000 /* it has rested for so long, */
 #define LOST_NS 400000000    /* or, when nobody knows where it is, its view has */
-#define STRAY_M 0.01         /* a pose that is found again and again strays by less, */
-#define STRAY_RAD 0.01       /* and less than that */
+#define STRAY_M 0.02         /* a pose that is found again and again strays by less, */
+#define STRAY_RAD 0.02       /* and less than that */
 #define BEFORE_FRAMES 5      /* in a row that show what it saw before */
 
 /* Where the camera is told to be stays the same; when it is not sure, that says nothing. */
