@@ -38,8 +38,7 @@ rlf_result camera_start(rlf_pipeline *p)
     p->camera.may_change = def->camera == RLF_CAMERA_AUTO && surface->scale_factor == 1 &&
                            surface->background_method == RLF_BACKGROUND_ADAPTIVE;
     if (p->camera.may_change) {
-        const size_t pixels =
-            (size_t)surface->rig.depth.width * (size_t)surface->rig.depth.height;
+        const size_t pixels = (size_t)surface->rig.depth.width * (size_t)surface->rig.depth.height;
         p->camera.still = rlf_alloc_array(2 * pixels, sizeof(float));
         p->camera.room = rlf_alloc_array(pixels, sizeof(float));
         if (p->camera.still == NULL || p->camera.room == NULL) {

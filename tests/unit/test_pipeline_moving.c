@@ -26,15 +26,15 @@ typedef struct room_source {
     uint8_t is_thing[WIDTH * HEIGHT];
     rlf_camera camera;
     int64_t frame, frame_count;
-    int64_t bad_frame; /* its pose is none; < 0: all are good */
+    int64_t bad_frame;  /* its pose is none; < 0: all are good */
     int64_t lie_frame;  /* if not 0: its pose says that the camera moved */
     int64_t mute_frame; /* if not 0: from it on no pose is one */
-    bool has_poses;    /* frames say where the camera is */
-    bool stands;       /* the camera does not move */
-    bool has_thing;    /* something comes before the wall */
+    bool has_poses;     /* frames say where the camera is */
+    bool stands;        /* the camera does not move */
+    bool has_thing;     /* something comes before the wall */
     int64_t stop_frame; /* if not 0: from it on the camera stands where it is */
-    bool is_other;     /* another room: its walls and floor are slanted */
-    double reach;      /* of the motion, 1 */
+    bool is_other;      /* another room: its walls and floor are slanted */
+    double reach;       /* of the motion, 1 */
 } room_source;
 
 static double to_box(const rlf_aabb *box, rlf_vec3 p, rlf_vec3 d)

@@ -134,8 +134,8 @@ static double to_ellipsoid(rlf_vec3 ray, rlf_vec3 centre, rlf_vec3 radii, double
 }
 
 /* Somebody turns on the spot before a bare wall, which cannot tell motion along itself: a trunk, a
- * head and two arms, by 3 degrees a frame, and leans to both sides. The sensor draws the wall wavy, as
- * structured light does. */
+ * head and two arms, by 3 degrees a frame, and leans to both sides. The sensor draws the wall wavy,
+ * as structured light does. */
 static void look_at_wall(int32_t number)
 {
     enum { MAN_PARTS = 4 };

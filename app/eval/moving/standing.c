@@ -8,12 +8,12 @@
 #include <math.h>
 #include <string.h>
 
-#define DARK_FROM 40
-#define DARK_TO 70
+#define DARK_FROM 20
+#define DARK_TO 35
 #define DARKER 16      /* divides the picture's values */
 #define STILL_M 2e-4   /* a true motion of less, and ... */
 #define STILL_RAD 1e-4 /* ... less than that in a frame is none */
-#define PERSON_FROM 20
+#define PERSON_FROM 15
 #define PERSON_PARTS 4
 
 /* The clip as the loop gets it. */
@@ -72,10 +72,10 @@ static void take_depth(disguise *d, rlf_frame *frame)
         const char *row = frame->depth_u16 != NULL ? (const char *)frame->depth_u16
                                                    : (const char *)frame->depth_f32;
         row += y * frame->depth_stride;
-        d->depth[i] = frame->depth_u16 != NULL
-                          ? (float)(((const uint16_t *)(const void *)row)[x] /
-                                    frame->depth_units_per_metre)
-                          : ((const float *)(const void *)row)[x];
+        d->depth[i] =
+            frame->depth_u16 != NULL
+                ? (float)(((const uint16_t *)(const void *)row)[x] / frame->depth_units_per_metre)
+                : ((const float *)(const void *)row)[x];
     }
     frame->depth_u16 = NULL;
     frame->depth_f32 = d->depth;
@@ -182,8 +182,8 @@ static void follow_truth(standing_run *run, int64_t time_ns)
 {
     const rlf_pose way = way_of(&run->T_true, &run->clip.T_world_camera);
     const double turn = 2.0 * rlf_length(rlf_vec3_make(way.q.x, way.q.y, way.q.z));
-    const bool moves = run->frame > 0 && run->clip.has_pose &&
-                       (rlf_length(way.p) > STILL_M || turn > STILL_RAD);
+    const bool moves =
+        run->frame > 0 && run->clip.has_pose && (rlf_length(way.p) > STILL_M || turn > STILL_RAD);
     if (moves) {
         run->begun = run->has_begun ? run->begun : run->frame;
         run->has_begun = true;
@@ -196,7 +196,8 @@ static double leap_mm(const standing_run *run, const rlf_pipeline_output *f)
 {
     const rlf_pose went = way_of(&run->T_true, &run->clip.T_world_camera);
     const rlf_pose found = way_of(&run->T_found, &f->T_world_camera);
-    return 1000.0 * rlf_length(rlf_sub(found.p, run->clip.has_pose ? went.p : rlf_vec3_make(0, 0, 0)));
+    return 1000.0 *
+           rlf_length(rlf_sub(found.p, run->clip.has_pose ? went.p : rlf_vec3_make(0, 0, 0)));
 }
 
 static void judge(standing_run *run, const rlf_pipeline_output *f, standing_figures *out)

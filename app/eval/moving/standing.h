@@ -8,7 +8,7 @@
 typedef enum standing_case {
     STANDING_AS_IT_IS = 0,
     STANDING_PERSON = 1, /* somebody near turns about, and fills half of the view */
-    STANDING_DARK = 2    /* the light is switched off after 40 frames, and on after 70 */
+    STANDING_DARK = 2    /* the light is switched off after 20 frames, and on after 35 */
 } standing_case;
 
 typedef struct standing_figures {

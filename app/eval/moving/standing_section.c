@@ -4,31 +4,30 @@
 
 #include <stdio.h>
 
-#define ROOMS 4
+#define ROOMS 4 /* a seed's */
 
 typedef struct standing_clip {
     const char *name, *source; /* the source without its seed; */
-    bool is_random;            /* then in ROOMS rooms */
+    int32_t rooms;             /* of `synthetic:random`: so many of a seed's, at most ROOMS */
     standing_case kind;
     int64_t frames;
     bool is_moved;
 } standing_clip;
 
+#define RANDOM "synthetic:random?color=160x90"
+
 static const standing_clip clips[] = {
-    {"standing room", "synthetic:room?color=160x90", false, STANDING_AS_IT_IS, 150, false},
-    {"standing room", "synthetic:hands?color=160x90", false, STANDING_AS_IT_IS, 120, false},
-    {"standing room", "synthetic:swipe?speed=1&color=160x90", false, STANDING_AS_IT_IS, 90, false},
-    {"standing room", "synthetic:lift?speed=1&color=160x90", false, STANDING_AS_IT_IS, 90, false},
-    {"standing rooms", "synthetic:random?color=160x90", true, STANDING_AS_IT_IS, 90, false},
-    {"standing person", "synthetic:random?color=160x90", true, STANDING_PERSON, 90, false},
-    {"standing dark", "synthetic:random?color=160x90", true, STANDING_DARK, 90, false},
-    {"standing bump", "synthetic:random?color=160x90&path=bump", true, STANDING_AS_IT_IS, 160,
-     true},
-    {"standing carried", "synthetic:random?color=160x90&path=carried", true, STANDING_AS_IT_IS, 210,
-     true},
-    {"standing handheld", "synthetic:random?color=160x90&path=handheld", true, STANDING_AS_IT_IS,
-     20, true},
-    {"standing walk", "synthetic:random?color=160x90&path=walk", true, STANDING_AS_IT_IS, 20, true},
+    {"standing room", "synthetic:room?color=160x90", 1, STANDING_AS_IT_IS, 90, false},
+    {"standing room", "synthetic:hands?color=160x90", 1, STANDING_AS_IT_IS, 90, false},
+    {"standing room", "synthetic:swipe?speed=1&color=160x90", 1, STANDING_AS_IT_IS, 60, false},
+    {"standing room", "synthetic:lift?speed=1&color=160x90", 1, STANDING_AS_IT_IS, 60, false},
+    {"standing rooms", RANDOM, 4, STANDING_AS_IT_IS, 60, false},
+    {"standing person", RANDOM, 4, STANDING_PERSON, 60, false},
+    {"standing dark", RANDOM, 4, STANDING_DARK, 50, false},
+    {"standing bump", RANDOM "&path=bump", 4, STANDING_AS_IT_IS, 155, true},
+    {"standing carried", RANDOM "&path=carried", 2, STANDING_AS_IT_IS, 195, true},
+    {"standing handheld", RANDOM "&path=handheld", 2, STANDING_AS_IT_IS, 20, true},
+    {"standing walk", RANDOM "&path=walk", 2, STANDING_AS_IT_IS, 20, true},
 };
 
 static void add(eval_table *table, const standing_clip *clip, const standing_figures *f)
@@ -58,8 +57,8 @@ void standing_tell(const char *name, const standing_figures *f)
     fprintf(stderr,
             "%-22s %4d frames, %d alarms, told after %d frames (%.1f mm off), stands after %.2f s "
             "(jump %.2f mm), bodies wait %.2f s\n",
-            name, (int)f->frames, (int)f->alarms, (int)f->told, f->snap_mm, f->stands_s,
-            f->jump_mm, f->wait_s);
+            name, (int)f->frames, (int)f->alarms, (int)f->told, f->snap_mm, f->stands_s, f->jump_mm,
+            f->wait_s);
 }
 
 rlf_result eval_standing_run(eval_table *table, int64_t seed, int profile_mask)
@@ -68,12 +67,11 @@ rlf_result eval_standing_run(eval_table *table, int64_t seed, int profile_mask)
     rlf_result result = RLF_OK;
     for (size_t i = 0; i < sizeof(clips) / sizeof(clips[0]); i++) {
         const standing_clip *clip = &clips[i];
-        for (int64_t k = 0; k < (clip->is_random ? ROOMS : 1) && result == RLF_OK; k++) {
+        for (int64_t k = 0; k < clip->rooms && result == RLF_OK; k++) {
             const int64_t room = 2 * (ROOMS * (seed - 1) + k) + 1;
             char text[256];
             standing_figures f;
-            (void)snprintf(text, sizeof(text), "%s&seed=%lld", clip->source,
-                           (long long)(clip->is_random ? room : seed));
+            (void)snprintf(text, sizeof(text), "%s&seed=%lld", clip->source, (long long)room);
             result = standing_measure(text, clip->kind, clip->frames, &f);
             if (result == RLF_OK) {
                 standing_tell(clip->name, &f);

@@ -1,11 +1,11 @@
 /* Whether the camera itself moves: then all that stands still seems to move as one rigid thing.
  *
  * A sparse set of points and normals of an earlier frame is laid onto the newest depth, by
- * point-to-plane distances (Chen and Medioni 1992) under Tukey's weights. Rest is the rival: in each
- * part of the picture the motion must explain what is seen better than rest does. The camera moves
- * when it does so in most parts, and in nearly all at which that motion would be seen. Somebody who
- * walks by, however large, leaves the room behind him at rest; a bare wall cannot tell a motion
- * along itself, so who turns before it decides nothing. */
+ * point-to-plane distances (Chen and Medioni 1992) under Tukey's weights. Rest is the rival: in
+ * each part of the picture the motion must explain what is seen better than rest does. The camera
+ * moves when it does so in most parts, and in nearly all at which that motion would be seen.
+ * Somebody who walks by, however large, leaves the room behind him at rest; a bare wall cannot tell
+ * a motion along itself, so who turns before it decides nothing. */
 #include "surface/motion/ego_motion.h"
 
 #include "surface/stage.h"
@@ -25,19 +25,19 @@ enum {
 };
 
 static const double gates_m[PASSES] = {0.3, 0.15, 0.05, 0.0, 0.0};
-static const double tukey = 4.685;       /* sigmas; 95 % efficient (Holland and Welsch 1977) */
-static const double rest_square = 1.5;   /* of sigmas, mean: 1 is noise alone */
-static const double rest_sigmas = 3.0;   /* what is nearer to rest than that is at rest */
-static const double told_square = 64.0;  /* sigmas of a part's motion, squared */
-static const double off_share = 0.25;    /* of the motion that a point may be off: it is curved */
-static const double least_gain = 0.5;    /* of a part's motion that must be gained over rest */
-static const double least_parts = 0.75;  /* of the parts move, and more, */
-static const double least_whole = 0.65;  /* or this share, which must determine all of the motion */
-static const double least_asked = 0.75;  /* and of those that would show the motion more than this */
-static const double least_share = 3e-3;  /* of the information, for a direction, ... */
-static const double least_own = 0.01;    /* ... and so much of that is not another direction's */
+static const double tukey = 4.685;      /* sigmas; 95 % efficient (Holland and Welsch 1977) */
+static const double rest_square = 1.5;  /* of sigmas, mean: 1 is noise alone */
+static const double rest_sigmas = 3.0;  /* what is nearer to rest than that is at rest */
+static const double told_square = 64.0; /* sigmas of a part's motion, squared */
+static const double off_share = 0.25;   /* of the motion that a point may be off: it is curved */
+static const double least_gain = 0.5;   /* of a part's motion that must be gained over rest */
+static const double least_parts = 0.75; /* of the parts move, and more, */
+static const double least_whole = 0.65; /* or this share, which must determine all of the motion */
+static const double least_asked = 0.75; /* and of those that would show the motion more than this */
+static const double least_share = 3e-3; /* of the information, for a direction, ... */
+static const double least_own = 0.01;   /* ... and so much of that is not another direction's */
 static const double least_facing = 0.25; /* cosine: depth of a grazing face says little */
-static const double ridge = 3e-3; /* of the information, for rest */
+static const double ridge = 3e-3;        /* of the information, for rest */
 
 typedef struct ego_job {
     const image_grid *grid;
@@ -87,7 +87,7 @@ static double sigma_at(const ego_job *job, int32_t k)
 static void improve(const ego_job *job, double gate, rlf_pose *pose)
 {
     const double twice = pose->q.w < 0.0 ? -2.0 : 2.0; /* small turns */
-    const double now[6] = {pose->p.x,           pose->p.y,           pose->p.z,
+    const double now[6] = {pose->p.x,         pose->p.y,         pose->p.z,
                            twice * pose->q.x, twice * pose->q.y, twice * pose->q.z};
     double a[6][6] = {{0}}, b[6] = {0}, x[6], total = 0.0;
     for (int32_t k = 0; k < job->view->count; k++) {
