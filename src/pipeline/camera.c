@@ -20,11 +20,18 @@ void camera_stop(rlf_pipeline *p)
     memset(&p->camera, 0, sizeof(p->camera));
 }
 
+static void show_room(rlf_pipeline *p)
+{
+    if (p->def.world.method == RLF_PHYSICS_LIVE) {
+        rlf_world_set_room(p->world, p->camera.moving.map);
+    }
+}
+
 static rlf_result start_moving(rlf_pipeline *p, const moving_from *from)
 {
     rlf_result result = moving_start(&p->camera.moving, &p->def, from);
-    if (result == RLF_OK && p->def.world.method == RLF_PHYSICS_LIVE) {
-        rlf_world_set_room(p->world, p->camera.moving.map);
+    if (result == RLF_OK) {
+        show_room(p);
     }
     return result;
 }
@@ -110,6 +117,11 @@ static rlf_result begin_to_move(rlf_pipeline *p, const rlf_surface *s, const rlf
             (long long)p->frame_index);
     c->was_placed = c->rests = false;
     c->before_frames = c->taught_frames = 0;
+    if (c->is_prepared) {
+        c->moving.is_on = true;
+        show_room(p);
+        return RLF_OK;
+    }
     const moving_from from = {c->T_stood, find_still(c, s), s->time_ns, *T_now_before};
     return start_moving(p, &from);
 }
@@ -132,6 +144,24 @@ static bool has_left(camera *c, const rlf_frame *frame, rlf_pose *T_now_before)
     return rlf_length(T_now_before->p) > LEFT_M || turn > LEFT_RAD;
 }
 
+/* Who records poses mostly moves the camera: the first frame is a moving one's, too, until the
+ * second one's pose tells. */
+static rlf_result prepare_to_move(rlf_pipeline *p)
+{
+    camera *c = &p->camera;
+    const rlf_surface *seen;
+    if (!p->last.frame.has_pose) {
+        return RLF_OK;
+    }
+    rlf_result result = moving_start(&c->moving, &p->def, NULL);
+    if (result == RLF_OK) {
+        result = moving_process(&c->moving, &p->last.frame, &seen);
+    }
+    c->moving.is_on = false;
+    c->is_prepared = true;
+    return result;
+}
+
 static rlf_result see_standing(rlf_pipeline *p, const rlf_surface **out)
 {
     camera *c = &p->camera;
@@ -147,9 +177,14 @@ static rlf_result see_standing(rlf_pipeline *p, const rlf_surface **out)
         if (!(*out)->is_blind) {
             keep_still(c, *out);
         }
-        return RLF_OK;
+        if (c->is_prepared) {
+            moving_stop(&c->moving);
+            c->is_prepared = false;
+        }
+        return p->frame_index == 0 ? prepare_to_move(p) : RLF_OK;
     }
     result = begin_to_move(p, *out, &T_now_before);
+    c->is_prepared = false;
     return result == RLF_OK ? see_moving(p, out) : result;
 }
 

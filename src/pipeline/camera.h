@@ -16,6 +16,7 @@ typedef struct camera {
     int32_t still_count;   /* so often one was; they take turns */
     rlf_pose T_source;     /* what the source said when the camera began to stand, */
     bool has_source;       /* if it said anything */
+    bool is_prepared;      /* `moving` has seen the first frame, in case that it moves */
     bool has_told;         /* that it moves, though it is to stand */
     bool was_placed;       /* since it began to move */
     bool rests;            /* while it moves: its view is as it was, since then: */
