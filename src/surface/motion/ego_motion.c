@@ -319,15 +319,12 @@ void rlf_ego_motion_watch(rlf_reconstruct *stage, const float *depth)
     }
 }
 
-static void keep(rlf_ego_view *view, const image_grid *grid, const rlf_slot *slot)
+static void keep_each(rlf_ego_view *view, const image_grid *grid, const rlf_slot *slot,
+                      int32_t step)
 {
-    int32_t step = 1;
-    while ((int64_t)(grid->width / step + 1) * (grid->height / step + 1) > RLF_EGO_POINTS) {
-        step++;
-    }
     view->count = 0;
     for (int32_t y = step / 2; y < grid->height; y += step) {
-        for (int32_t x = step / 2; x < grid->width; x += step) {
+        for (int32_t x = step / 2; x < grid->width && view->count < RLF_EGO_POINTS; x += step) {
             int32_t i = y * grid->width + x;
             double z = slot->depth[i];
             rlf_vec3 p = {z * grid->ray_x[i], z * grid->ray_y[i], z};
@@ -337,6 +334,20 @@ static void keep(rlf_ego_view *view, const image_grid *grid, const rlf_slot *slo
                 view->points[view->count++] = (rlf_ego_point){p, n, i};
             }
         }
+    }
+}
+
+/* As many points as there is room for: where much has no depth, what has is asked more closely. */
+static void keep(rlf_ego_view *view, const image_grid *grid, const rlf_slot *slot)
+{
+    int32_t step = 1;
+    while ((int64_t)(grid->width / step + 1) * (grid->height / step + 1) > RLF_EGO_POINTS) {
+        step++;
+    }
+    keep_each(view, grid, slot, step);
+    const double finer = step * sqrt(1.1 * view->count / RLF_EGO_POINTS);
+    if (view->count >= FEWEST && (int32_t)finer + 1 < step) {
+        keep_each(view, grid, slot, (int32_t)finer + 1);
     }
 }
 
