@@ -115,7 +115,8 @@ static rlf_result begin_to_move(rlf_pipeline *p, const rlf_surface *s, const rlf
     camera *c = &p->camera;
     rlf_log(RLF_LOG_INFO, "the camera moves (frame %lld): it is tracked from now on",
             (long long)p->frame_index);
-    c->was_placed = c->rests = false;
+    c->was_placed = true; /* where it stood */
+    c->rests = false;
     c->before_frames = c->taught_frames = 0;
     if (c->is_prepared) {
         c->moving.is_on = true;

@@ -18,7 +18,7 @@ typedef struct camera {
     bool has_source;       /* if it said anything */
     bool is_prepared;      /* `moving` has seen the first frame, in case that it moves */
     bool has_told;         /* that it moves, though it is to stand */
-    bool was_placed;       /* since it began to move */
+    bool was_placed;       /* at any time */
     bool rests;            /* while it moves: its view is as it was, since then: */
     int64_t rest_ns;       /* the time, and */
     rlf_pose T_rest;       /* where that was */

@@ -315,10 +315,11 @@ static void bodies_wait_a_second_at_most_for_a_room_that_stands_still(void **sta
     int64_t time = 0;
     int32_t waited = 0, longest = 0, lost = 0;
     memory.has_poses = true;
-    memory.stop_frame = memory.mute_frame = stop;
+    memory.stop_frame = stop;
+    memory.mute_frame = STILL;
     while (rlf_pipeline_step(pipeline, &out) == RLF_OK) {
         lost += out.track != NULL && out.track->health == RLF_TRACK_LOST;
-        waited = out.snapshot->time_ns > time ? 0 : waited + 1;
+        waited = out.snapshot->time_ns > time || out.frame_index < stop ? 0 : waited + 1;
         longest = waited > longest ? waited : longest;
         time = out.snapshot->time_ns;
     }
