@@ -10,8 +10,9 @@
 
 static void print_camera_help(void)
 {
-    printf("  --camera NAME         auto (default): fixed until the view as a whole moves, then\n"
-           "                        moving; moving: tracked against a map from the first frame;\n"
+    printf("  --camera NAME         auto (default): fixed; moving while the view as a whole does,\n"
+           "                        until it stands for 2 s; moving: tracked against a map from "
+           "the first frame;\n"
            "                        fixed: never tracked\n"
            "  --poses NAME          of a moving camera: tracked (default), or source: its own\n"
            "  --map FILE.map        a known room, as relief fuse --save writes it: the camera is\n"

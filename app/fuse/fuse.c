@@ -27,6 +27,7 @@ typedef struct fuse_run {
     rlf_source *source;
     fuser fuser;
     source_poses poses; /* the first camera's frame is the world */
+    bool has_left;      /* they are not all the same */
     fuse_tally tally;
     fuse_progress progress;
     trajectory trajectory;
@@ -156,27 +157,40 @@ static rlf_result open_all(fuse_run *run)
     return result;
 }
 
+#define SAME_M 1e-4   /* poses of a camera that stands differ by less, */
+#define SAME_RAD 1e-4 /* and less than that */
+
+/* The poses are all the same so far: the camera stands, and need not be tracked. */
+static bool stands(fuse_run *run, bool has_pose, const rlf_pose *T)
+{
+    const rlf_vec3 turn = {2.0 * T->q.x, 2.0 * T->q.y, 2.0 * T->q.z};
+    run->has_left =
+        run->has_left || !has_pose || rlf_length(T->p) > SAME_M || rlf_length(turn) > SAME_RAD;
+    return !run->has_left;
+}
+
 /* A frame without a pose that can be used is left out, and so is one that cannot be placed. */
 static rlf_result add_frame(fuse_run *run, const rlf_frame *frame)
 {
     fuse_tally *t = &run->tally;
-    rlf_pose T;
+    rlf_pose T = rlf_pose_identity();
     const bool has_pose = source_poses_take(&run->poses, frame, &T);
     t->seen++;
     t->without_pose += !has_pose;
     if (!t->is_tracked && !has_pose) {
         return RLF_OK;
     }
-    const rlf_result result = fuser_add(&run->fuser, frame, t->is_tracked ? NULL : &T, NULL);
+    const bool is_tracked = t->is_tracked && !stands(run, has_pose, &T);
+    const rlf_result result = fuser_add(&run->fuser, frame, is_tracked ? NULL : &T, NULL);
     if (result != RLF_OK) {
         return result;
     }
     fuse_tally_add(t, &run->fuser);
-    if (t->is_tracked && run->fuser.pose.last.health == RLF_TRACK_LOST) {
+    if (is_tracked && run->fuser.pose.last.health == RLF_TRACK_LOST) {
         return RLF_OK;
     }
     t->fused++;
-    const rlf_pose *found = t->is_tracked ? &run->fuser.pose.last.T_world_camera : &T;
+    const rlf_pose *found = is_tracked ? &run->fuser.pose.last.T_world_camera : &T;
     room_view_pass(&run->room, found, run->fuser.surface);
     return trajectory_add(&run->trajectory, frame->time_ns, found, has_pose ? &T : NULL);
 }

@@ -69,13 +69,18 @@ rlf_result fuser_add(fuser *f, const rlf_frame *frame, const rlf_pose *T_world_c
     start = rlf_clock_ns();
     const bool has_color = color_view_take(&f->color, frame, s);
     f->color_ms = ms_since(start);
-    if (f->is_tracked) {
+    if (f->is_tracked && T_world_camera != NULL) {
+        f->pose.predict_ms = 0.0;
+        result = camera_pose_predict(&f->pose, f->map, T_world_camera);
+    } else if (f->is_tracked) {
         result =
             camera_pose_find(&f->pose, f->map, s, has_color ? f->color.grey : NULL, frame->time_ns);
         if (result != RLF_OK || !f->pose.may_fuse) {
             return result;
         }
         T_world_camera = &f->pose.last.T_world_camera;
+    }
+    if (result == RLF_OK && f->is_tracked) {
         camera_pose_mark_static(&f->pose, s, f->is_static);
     }
     start = rlf_clock_ns();

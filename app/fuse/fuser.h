@@ -28,8 +28,8 @@ typedef struct fuser {
 
 /* `rig` is borrowed. Close what was opened, also after an error. */
 rlf_result fuser_open(fuser *f, const rlf_rig *rig, const fuser_options *options, rlf_pool *pool);
-/* A frame and where the camera was; NULL where it is tracked: f->pose.last tells then what was
- * found, and a frame that is not placed well is not fused. `out_change` may be NULL. */
+/* A frame and where the camera was; NULL where that is to be found: f->pose.last tells then what
+ * was found, and a frame that is not placed well is not fused. `out_change` may be NULL. */
 rlf_result fuser_add(fuser *f, const rlf_frame *frame, const rlf_pose *T_world_camera,
                      rlf_map_change *out_change);
 void fuser_close(fuser *f);

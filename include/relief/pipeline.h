@@ -66,8 +66,8 @@ typedef const rlf_surface *(*rlf_surface_fn)(void *context, const rlf_surface *s
 typedef enum rlf_camera_mode {
     RLF_CAMERA_FIXED = 0,  /* it stands; while it is moved all is one sheet at rest */
     RLF_CAMERA_MOVING = 1, /* its pose is found for each frame, against a map of the room */
-    RLF_CAMERA_AUTO = 2    /* it stands until the view as a whole moves; from then on MOVING.
-                              Needs the adaptive background; else as FIXED */
+    RLF_CAMERA_AUTO = 2    /* it stands; MOVING from when the view as a whole moves until it stands
+                              again. Needs the adaptive background; else as FIXED */
 } rlf_camera_mode;
 
 /* Who says where a moving camera is. */

@@ -165,6 +165,10 @@ RLF_API void rlf_reconstruct_set_times(rlf_reconstruct *stage, rlf_surface_times
 
 /* Forgets the background and all history: the next frame is the first. */
 RLF_API void rlf_reconstruct_reset(rlf_reconstruct *stage);
+/* Whether a depth plane of the same camera, metres along z and 0 = missing, shows what the stage
+ * saw up to 16 frames before its newest one: at least half of the picture's parts are where they
+ * were, whatever moves before the others. */
+RLF_API bool rlf_reconstruct_is_as_before(const rlf_reconstruct *stage, const float *depth);
 
 /* Normals of any organised depth grid, for measuring a method by itself: camera and rays as in
  * rlf_surface, noise NULL for clean depth. out planes hold width*height floats, 0 where there is

@@ -98,13 +98,17 @@ typedef struct rlf_surface {
      * than a tenth of the background that is known; before there is any, less than a tenth of the
      * picture, for at most 3 s. */
     bool is_blind;
-    /* The camera itself moves, or did within the last 8 frames; told within 10 frames. Then all is
-     * one sheet at rest and nothing is foreground: the background is learnt anew when it stands.
-     * Always false with a background other than adaptive. */
+    /* The camera itself moves, or did within the last 12 frames; told within 10 frames. With the
+     * adaptive background all is one sheet at rest then, and nothing is foreground: the background
+     * is learnt anew when it stands. Always false with a background neither adaptive nor given. */
     bool camera_moves;
     /* The view as a whole seems to have moved, and it is not sure yet that the camera did. */
     bool camera_may_move;
-    /* When camera_moves begins: the camera as it was up to 8 frames ago, in this frame's camera. */
+    /* At least a third of the picture's parts are where they were up to 16 frames ago, and the view
+     * as a whole has not moved. */
+    bool camera_rests;
+    /* When camera_moves begins: the camera as it was up to 16 frames ago, in this frame's camera.
+     */
     rlf_pose T_now_before;
 
     /* Regions of both layers; region_points lists pixel indices region by region when kept. */

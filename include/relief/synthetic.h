@@ -54,7 +54,10 @@ typedef enum rlf_synthetic_path {
     RLF_SYNTHETIC_PATH_HANDHELD = 3,  /* sways by 0.2 m and 7 degrees, up to 6 mm a frame */
     RLF_SYNTHETIC_PATH_LOOK_AWAY = 4, /* as handheld; turns by 100 degrees for 1 s at t = 2 s + 8 n
                                          and back */
-    RLF_SYNTHETIC_PATH_FAST = 5       /* shaken: up to 1.3 m/s, 100 degrees a second */
+    RLF_SYNTHETIC_PATH_FAST = 5,      /* shaken: up to 1.3 m/s, 100 degrees a second */
+    RLF_SYNTHETIC_PATH_CARRIED = 6,   /* stands for 2 s, is carried 0.3 m in 1.5 s, and stands */
+    RLF_SYNTHETIC_PATH_BUMP = 7       /* stands for 2 s, is pushed 1 cm and 1 degree in 0.2 s, and
+                                         stands */
 } rlf_synthetic_path;
 
 /* Values of rlf_truth.label. The first four are the room's shell: endlessly thick, thickness 0. */
@@ -116,7 +119,8 @@ RLF_API rlf_result rlf_synthetic_create(const rlf_synthetic_def *def, rlf_source
 /* Reads "synthetic:NAME[?key=value[&key=value...]]" into *def: NAME one of room, empty, thesis,
  * chair, book, hand, lift, swipe, carry, crossing, random, hands; keys seed, person, frames, fps,
  * speed, lamp (X,Y,Z), noise (0|1|steps), edge_filter (0|1), color (WxH or 0), push
- * (none|lift|swipe|carry), path (none|orbit|walk|handheld|look_away|fast); of scene "hands" also
+ * (none|lift|swipe|carry), path
+ * (none|orbit|walk|handheld|look_away|fast|carried|bump); of scene "hands" also
  * grasp or gesture (an act's name), view, body, distance, size and hold. A random room draws its
  * sensor and its lamp itself: of noise only 0 has an effect there. RLF_ERROR_INVALID names the part
  * that is wrong and what is allowed. */

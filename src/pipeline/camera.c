@@ -1,10 +1,13 @@
-/* A camera that stands, one that moves, and the step from the one to the other. */
+/* A camera that stands, one that moves, and the step from the one to the other; stand_again.c has
+ * the way back. */
 #include "pipeline/state.h"
 
 #include <string.h>
 
 #define KEEP_NS 1000000000 /* a standing camera's background is kept so often */
-#define TOLD_NS 500000000  /* within which it is told that the camera moves */
+#define TOLD_NS 700000000  /* within which it is told that the camera moves */
+#define LEFT_M 0.002       /* poses of a source that differ by more moved, */
+#define LEFT_RAD 0.002     /* or by more than that */
 
 void camera_stop(rlf_pipeline *p)
 {
@@ -13,14 +16,22 @@ void camera_stop(rlf_pipeline *p)
     }
     moving_stop(&p->camera.moving);
     rlf_free(p->camera.still);
+    rlf_free(p->camera.room);
     memset(&p->camera, 0, sizeof(p->camera));
+}
+
+static void show_room(rlf_pipeline *p)
+{
+    if (p->def.world.method == RLF_PHYSICS_LIVE) {
+        rlf_world_set_room(p->world, p->camera.moving.map);
+    }
 }
 
 static rlf_result start_moving(rlf_pipeline *p, const moving_from *from)
 {
     rlf_result result = moving_start(&p->camera.moving, &p->def, from);
-    if (result == RLF_OK && p->def.world.method == RLF_PHYSICS_LIVE) {
-        rlf_world_set_room(p->world, p->camera.moving.map);
+    if (result == RLF_OK) {
+        show_room(p);
     }
     return result;
 }
@@ -29,20 +40,24 @@ rlf_result camera_start(rlf_pipeline *p)
 {
     const rlf_pipeline_def *def = &p->def;
     camera_stop(p);
-    p->camera.T_world = def->T_world_camera;
+    p->camera.T_world = p->camera.T_stood = def->T_world_camera;
+    const rlf_reconstruct_def *surface = &def->reconstruct;
+    p->camera.may_change = def->camera == RLF_CAMERA_AUTO && surface->scale_factor == 1 &&
+                           surface->background_method == RLF_BACKGROUND_ADAPTIVE;
+    if (p->camera.may_change) {
+        const size_t pixels = (size_t)surface->rig.depth.width * (size_t)surface->rig.depth.height;
+        p->camera.still = rlf_alloc_array(2 * pixels, sizeof(float));
+        p->camera.room = rlf_alloc_array(pixels, sizeof(float));
+        if (p->camera.still == NULL || p->camera.room == NULL) {
+            return RLF_ERROR_MEMORY;
+        }
+    }
     const bool is_known = def->map != NULL && rlf_map_get_status(def->map).block_count > 0;
     if (def->camera == RLF_CAMERA_MOVING || (def->camera == RLF_CAMERA_AUTO && is_known)) {
         return start_moving(p, NULL);
     }
-    const rlf_reconstruct_def *surface = &def->reconstruct;
-    p->camera.is_watched = def->camera == RLF_CAMERA_AUTO && surface->scale_factor == 1 &&
-                           surface->background_method == RLF_BACKGROUND_ADAPTIVE;
-    if (p->camera.is_watched) {
-        const rlf_camera *depth = &surface->rig.depth;
-        p->camera.still =
-            rlf_alloc_array(2 * (size_t)depth->width * (size_t)depth->height, sizeof(float));
-    }
-    return p->camera.is_watched && p->camera.still == NULL ? RLF_ERROR_MEMORY : RLF_OK;
+    p->camera.has_stood = true;
+    return RLF_OK;
 }
 
 /* What the room looked like from where the camera stood: the map begins with it. The first frame
@@ -54,7 +69,8 @@ static void keep_still(camera *c, const rlf_surface *s)
     const bool is_due = s->time_ns - c->still_ns[last] >= KEEP_NS;
     if (is_first || (is_due && s->background_state == RLF_BACKGROUND_READY)) {
         const size_t count = (size_t)s->width * (size_t)s->height;
-        const float *room = is_first ? s->depth : s->background_depth;
+        const bool is_learnt = s->background_state == RLF_BACKGROUND_READY;
+        const float *room = is_learnt ? s->background_depth : s->depth;
         memcpy(c->still + (size_t)next * count, room, count * sizeof(*c->still));
         c->still_ns[next] = s->time_ns;
         c->still_count++;
@@ -94,57 +110,94 @@ static rlf_result see_moving(rlf_pipeline *p, const rlf_surface **out)
 }
 
 /* From now on it moves. */
-static rlf_result begin_to_move(rlf_pipeline *p, const rlf_surface *s)
+static rlf_result begin_to_move(rlf_pipeline *p, const rlf_surface *s, const rlf_pose *T_now_before)
 {
     camera *c = &p->camera;
     rlf_log(RLF_LOG_INFO, "the camera moves (frame %lld): it is tracked from now on",
             (long long)p->frame_index);
-    c->is_watched = false;
-    const moving_from from = {find_still(c, s), s->time_ns, s->T_now_before};
+    c->was_placed = true; /* where it stood */
+    c->rests = false;
+    c->before_frames = c->taught_frames = 0;
+    if (c->is_prepared) {
+        c->moving.is_on = true;
+        show_room(p);
+        return RLF_OK;
+    }
+    const moving_from from = {c->T_stood, find_still(c, s), s->time_ns, *T_now_before};
     return start_moving(p, &from);
+}
+
+/* Poses of the source that change move the camera, long before it is seen; those that stay the same
+ * are a standing camera's. */
+static bool has_left(camera *c, const rlf_frame *frame, rlf_pose *T_now_before)
+{
+    if (!frame->has_pose) {
+        return false;
+    }
+    if (!c->has_source) {
+        c->T_source = frame->T_world_camera;
+        c->has_source = true;
+    }
+    const rlf_pose back = rlf_pose_invert(&frame->T_world_camera);
+    *T_now_before = rlf_pose_mul(&back, &c->T_source);
+    const rlf_quat q = T_now_before->q;
+    const double turn = 2.0 * rlf_length(rlf_vec3_make(q.x, q.y, q.z));
+    return rlf_length(T_now_before->p) > LEFT_M || turn > LEFT_RAD;
+}
+
+/* Who records poses mostly moves the camera: the first frame is a moving one's, too, until the
+ * second one's pose tells. */
+static rlf_result prepare_to_move(rlf_pipeline *p)
+{
+    camera *c = &p->camera;
+    const rlf_surface *seen;
+    if (!p->last.frame.has_pose) {
+        return RLF_OK;
+    }
+    rlf_result result = moving_start(&c->moving, &p->def, NULL);
+    if (result == RLF_OK) {
+        result = moving_process(&c->moving, &p->last.frame, &seen);
+    }
+    c->moving.is_on = false;
+    c->is_prepared = true;
+    return result;
 }
 
 static rlf_result see_standing(rlf_pipeline *p, const rlf_surface **out)
 {
+    camera *c = &p->camera;
     rlf_result result = rlf_reconstruct_process(p->reconstruct, &p->last.frame, out);
-    if (result != RLF_OK || !p->camera.is_watched) {
+    if (result != RLF_OK || !c->may_change) {
         if (result == RLF_OK) {
             tell_motion(p, *out);
         }
         return result;
     }
-    if (!(*out)->camera_moves) {
+    rlf_pose T_now_before = (*out)->T_now_before;
+    if (!(*out)->camera_moves && !has_left(c, &p->last.frame, &T_now_before)) {
         if (!(*out)->is_blind) {
-            keep_still(&p->camera, *out);
+            keep_still(c, *out);
         }
-        return RLF_OK;
+        if (c->is_prepared) {
+            moving_stop(&c->moving);
+            c->is_prepared = false;
+        }
+        return p->frame_index == 0 ? prepare_to_move(p) : RLF_OK;
     }
-    result = begin_to_move(p, *out);
+    result = begin_to_move(p, *out, &T_now_before);
+    c->is_prepared = false;
     return result == RLF_OK ? see_moving(p, out) : result;
-}
-
-/* Who records poses moves the camera: the surface stage need not find that out. */
-static rlf_result begin_with_poses(rlf_pipeline *p)
-{
-    camera *c = &p->camera;
-    if (!c->is_watched || p->frame_index > 0 || !p->last.frame.has_pose) {
-        return RLF_OK;
-    }
-    c->is_watched = false;
-    return start_moving(p, NULL);
 }
 
 rlf_result camera_see(rlf_pipeline *p, const rlf_surface **out)
 {
+    camera *c = &p->camera;
+    const bool moves = c->moving.is_on;
     p->last.track = NULL;
     p->last.room = NULL;
-    rlf_result result = begin_with_poses(p);
-    if (result != RLF_OK) {
-        return result;
-    }
-    result = p->camera.moving.is_on ? see_moving(p, out) : see_standing(p, out);
-    p->last.T_world_camera = p->camera.T_world;
-    return result;
+    rlf_result result = moves ? see_moving(p, out) : see_standing(p, out);
+    p->last.T_world_camera = c->T_world;
+    return result == RLF_OK && moves && c->may_change ? camera_stand_again(p, *out) : result;
 }
 
 rlf_map *rlf_pipeline_get_map(rlf_pipeline *p)

@@ -106,8 +106,10 @@ static double time_to_advance(const rlf_pipeline *p, double gap_s)
 {
     const double rate = rlf_source_get_info(p->def.source)->frames_per_second;
     const bool was_away = gap_s > ADVANCE_MAX_S && gap_s * rate > AWAY_FRAMES;
-    const bool is_lost = p->camera.moving.is_on && !moving_is_placed(&p->camera.moving);
-    const bool is_unsure = is_lost || p->last.surface->camera_may_move || p->last.surface->is_blind;
+    const rlf_surface *s = p->last.surface;
+    const bool may_move = s->camera_may_move && !p->camera.moving.is_on;
+    const bool is_lost = camera_is_waited_for(&p->camera, p->last.frame.time_ns);
+    const bool is_unsure = is_lost || may_move || s->is_blind;
     return was_away || is_unsure ? 0.0 : rlf_min(gap_s, ADVANCE_MAX_S);
 }
 

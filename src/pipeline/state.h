@@ -64,6 +64,12 @@ rlf_result camera_start(rlf_pipeline *p);
 /* The surface of p->last.frame, and from where it was seen: p->camera.T_world and p->last. */
 rlf_result camera_see(rlf_pipeline *p, const rlf_surface **out);
 void camera_stop(rlf_pipeline *p);
+/* stand_again.c: after a frame of a moving camera, whose surface is *s. From the next frame on it
+ * stands when it has rested for 2 s, or when it is not sure where it is and sees what it saw before
+ * it moved. */
+rlf_result camera_stand_again(rlf_pipeline *p, const rlf_surface *s);
+/* Nobody knows where it is; when its view rests that is waited for less than a second. */
+bool camera_is_waited_for(const camera *c, int64_t now_ns);
 /* One more frame in the plot, from p->last.times. */
 void pipeline_note_times(rlf_pipeline *p);
 

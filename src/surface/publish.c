@@ -54,6 +54,7 @@ void surface_publish(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *s
     s->background_state = stage->background.state;
     s->camera_moves = stage->ego.moves;
     s->camera_may_move = stage->ego.seen_frames > 0 && !stage->ego.moves;
+    s->camera_rests = stage->ego.rests;
     s->T_now_before = stage->ego.found;
     s->regions = slot->regions;
     s->region_count = slot->foreground_region_first + slot->foreground_region_count;

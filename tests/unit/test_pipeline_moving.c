@@ -26,12 +26,15 @@ typedef struct room_source {
     uint8_t is_thing[WIDTH * HEIGHT];
     rlf_camera camera;
     int64_t frame, frame_count;
-    int64_t bad_frame; /* its pose is none; < 0: all are good */
-    bool has_poses;    /* frames say where the camera is */
-    bool stands;       /* the camera does not move */
-    bool has_thing;    /* something comes before the wall */
-    bool is_other;     /* another room: its walls and floor are slanted */
-    double reach;      /* of the motion, 1 */
+    int64_t bad_frame;  /* its pose is none; < 0: all are good */
+    int64_t lie_frame;  /* if not 0: its pose says that the camera moved */
+    int64_t mute_frame; /* if not 0: from it on no pose is one */
+    bool has_poses;     /* frames say where the camera is */
+    bool stands;        /* the camera does not move */
+    bool has_thing;     /* something comes before the wall */
+    int64_t stop_frame; /* if not 0: from it on the camera stands where it is */
+    bool is_other;      /* another room: its walls and floor are slanted */
+    double reach;       /* of the motion, 1 */
 } room_source;
 
 static double to_box(const rlf_aabb *box, rlf_vec3 p, rlf_vec3 d)
@@ -73,6 +76,7 @@ static rlf_quat level(void)
 
 static rlf_pose pose_at(const room_source *s, int64_t frame)
 {
+    frame = s->stop_frame > 0 && frame > s->stop_frame ? s->stop_frame : frame;
     const double t = s->stands || frame < STILL ? 0.0 : (double)(frame - STILL) / PERIOD;
     const double swing = 0.5 - 0.5 * cos(2.0 * RLF_PI * t);
     const double far = s->reach * swing;
@@ -111,6 +115,12 @@ static rlf_result room_next(void *self, rlf_frame *out)
     out->T_world_camera = T;
     if (s->frame == s->bad_frame) {
         out->T_world_camera.q.x = (double)NAN;
+    }
+    if (s->lie_frame > 0 && s->frame == s->lie_frame) {
+        out->T_world_camera.p.x += 0.1;
+    }
+    if (s->mute_frame > 0 && s->frame >= s->mute_frame) {
+        out->T_world_camera.p.x = (double)NAN;
     }
     s->frame++;
     return RLF_OK;
@@ -238,12 +248,13 @@ static void bodies_wait_until_it_is_sure_that_the_camera_moves(void **state)
     close_all(&pipeline, &source);
 }
 
-static uint64_t run_hash(rlf_camera_mode camera)
+static uint64_t run_hash(rlf_camera_mode camera, bool has_poses)
 {
     rlf_source *source = open_room(STILL);
     rlf_pipeline *pipeline = open_pipeline(source, camera, RLF_POSES_TRACKED);
     rlf_pipeline_output out;
     memory.stands = true;
+    memory.has_poses = has_poses;
     while (rlf_pipeline_step(pipeline, &out) == RLF_OK) {
         assert_null(out.track);
     }
@@ -256,7 +267,87 @@ static uint64_t run_hash(rlf_camera_mode camera)
 static void a_camera_that_stands_is_as_a_fixed_one(void **state)
 {
     (void)state;
-    assert_int_equal(run_hash(RLF_CAMERA_AUTO), run_hash(RLF_CAMERA_FIXED));
+    const uint64_t fixed = run_hash(RLF_CAMERA_FIXED, false);
+    assert_int_equal(run_hash(RLF_CAMERA_AUTO, false), fixed);
+    assert_int_equal(run_hash(RLF_CAMERA_AUTO, true), fixed);
+}
+
+/* It is carried, and put down: two seconds later it is as good as one that never moved. */
+static void a_camera_that_is_put_down_stands_again(void **state)
+{
+    (void)state;
+    const int64_t stop = STILL + PERIOD / 4, last = stop + 110;
+    rlf_source *source = open_room(last);
+    rlf_pipeline *pipeline = open_pipeline(source, RLF_CAMERA_AUTO, RLF_POSES_TRACKED);
+    rlf_pipeline_output out;
+    rlf_vec3 rest = {0, 0, 0};
+    rlf_pose before = rlf_pose_identity();
+    int32_t tracked = 0;
+    int64_t stood = 0;
+    memory.stop_frame = stop;
+    while (rlf_pipeline_step(pipeline, &out) == RLF_OK) {
+        const bool is_tracked = out.track != NULL;
+        tracked += is_tracked;
+        rest = out.frame_index < STILL ? place_of(&out) : rest;
+        assert_true(rlf_length(rlf_sub(place_of(&out), rest)) < 0.01 || out.frame_index < STILL);
+        if (tracked > 0 && !is_tracked) {
+            stood = stood > 0 ? stood : out.frame_index;
+            memory.has_thing = out.frame_index >= last - 5;
+            assert_true(rlf_length(rlf_sub(out.T_world_camera.p, before.p)) == 0.0);
+            assert_int_equal(out.surface->background_state, RLF_BACKGROUND_READY);
+        }
+        before = out.T_world_camera;
+    }
+    assert_true(stood > stop + 55 && stood < stop + 85);
+    assert_true(rlf_length(rlf_sub(before.p, pose_at(&memory, stop).p)) < 0.01);
+    assert_true(out.surface->foreground_count > 500); /* what has come before the wall */
+    close_all(&pipeline, &source);
+}
+
+/* It is carried, and nobody says to where: it is lost, but what it sees stands still. */
+static void bodies_wait_a_second_at_most_for_a_room_that_stands_still(void **state)
+{
+    (void)state;
+    const int64_t stop = STILL + PERIOD / 4;
+    rlf_source *source = open_room(stop + 60);
+    rlf_pipeline *pipeline = open_pipeline(source, RLF_CAMERA_AUTO, RLF_POSES_SOURCE);
+    rlf_pipeline_output out;
+    int64_t time = 0;
+    int32_t waited = 0, longest = 0, lost = 0;
+    memory.has_poses = true;
+    memory.stop_frame = stop;
+    memory.mute_frame = STILL;
+    while (rlf_pipeline_step(pipeline, &out) == RLF_OK) {
+        lost += out.track != NULL && out.track->health == RLF_TRACK_LOST;
+        waited = out.snapshot->time_ns > time || out.frame_index < stop ? 0 : waited + 1;
+        longest = waited > longest ? waited : longest;
+        time = out.snapshot->time_ns;
+    }
+    assert_true(lost > 10);
+    assert_true(longest > 1 && longest <= 30);
+    assert_null(out.track);
+    close_all(&pipeline, &source);
+}
+
+/* A source says that the camera moved, and then nothing: it stands where it stood. */
+static void a_camera_that_cannot_be_placed_stands_where_it_stood(void **state)
+{
+    (void)state;
+    rlf_source *source = open_room(STILL + 40);
+    rlf_pipeline *pipeline = open_pipeline(source, RLF_CAMERA_AUTO, RLF_POSES_SOURCE);
+    rlf_pipeline_output out;
+    int32_t tracked = 0;
+    memory.stands = memory.has_poses = true;
+    memory.lie_frame = STILL;
+    memory.mute_frame = STILL + 1;
+    while (rlf_pipeline_step(pipeline, &out) == RLF_OK) {
+        tracked += out.track != NULL;
+        assert_true(out.track == NULL || out.frame_index >= STILL);
+    }
+    assert_true(tracked > 0 && tracked < 15);
+    assert_true(rlf_length(out.T_world_camera.p) == 0.0);
+    assert_int_equal(out.surface->background_state, RLF_BACKGROUND_READY);
+    close_all(&pipeline, &source);
 }
 
 static void what_comes_before_the_room_is_foreground(void **state)
@@ -311,13 +402,16 @@ static void count_poses(void *context, rlf_log_level level, const char *line)
     told += strstr(line, "poses of the source") != NULL;
 }
 
-static void a_camera_with_poses_is_tracked_at_once(void **state)
+static void a_camera_whose_poses_change_is_tracked_at_once(void **state)
 {
     (void)state;
-    rlf_source *source = open_room(1);
+    rlf_source *source = open_room(STILL + PERIOD);
     memory.has_poses = true;
+    memory.frame = STILL + PERIOD / 4;
     rlf_pipeline *pipeline = open_pipeline(source, RLF_CAMERA_AUTO, RLF_POSES_TRACKED);
     rlf_pipeline_output out;
+    assert_int_equal(rlf_pipeline_step(pipeline, &out), RLF_OK);
+    assert_null(out.track);
     assert_int_equal(rlf_pipeline_step(pipeline, &out), RLF_OK);
     assert_non_null(out.track);
     close_all(&pipeline, &source);
@@ -384,9 +478,12 @@ int main(void)
         cmocka_unit_test(bodies_stay_in_the_world_when_the_camera_begins_to_move),
         cmocka_unit_test(bodies_wait_until_it_is_sure_that_the_camera_moves),
         cmocka_unit_test(a_camera_that_stands_is_as_a_fixed_one),
+        cmocka_unit_test(a_camera_that_is_put_down_stands_again),
+        cmocka_unit_test(bodies_wait_a_second_at_most_for_a_room_that_stands_still),
+        cmocka_unit_test(a_camera_that_cannot_be_placed_stands_where_it_stood),
         cmocka_unit_test(what_comes_before_the_room_is_foreground),
         cmocka_unit_test(what_is_put_down_becomes_the_room),
-        cmocka_unit_test(a_camera_with_poses_is_tracked_at_once),
+        cmocka_unit_test(a_camera_whose_poses_change_is_tracked_at_once),
         cmocka_unit_test(a_pose_that_is_none_is_told_once_and_left_out),
         cmocka_unit_test(a_camera_is_found_where_a_known_room_was_seen_from),
     };

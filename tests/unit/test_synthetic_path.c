@@ -75,7 +75,8 @@ static void test_pictures_agree_with_poses(void **state)
 /* Every path begins where a camera at rest is, and is smooth: no more than the paths promise. */
 static void test_paths_begin_at_rest(void **state)
 {
-    static const char *const names[] = {"orbit", "walk", "handheld", "look_away", "fast"};
+    static const char *const names[] = {"orbit", "walk",    "handheld", "look_away",
+                                        "fast",  "carried", "bump"};
     (void)state;
     for (size_t i = 0; i < sizeof(names) / sizeof(names[0]); i++) {
         char text[80] = "synthetic:empty?color=0&fps=30&frames=6&path=";

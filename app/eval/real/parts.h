@@ -11,5 +11,6 @@ rlf_result real_fill_run(real_table *table, const real_options *options);
 rlf_result real_silhouettes_run(real_table *table, const real_options *options);
 rlf_result real_gravity_run(real_table *table, const real_options *options);
 rlf_result real_moving_run(real_table *table, const real_options *options);
+rlf_result real_standing_run(real_table *table, const real_options *options);
 
 #endif

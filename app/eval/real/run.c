@@ -16,6 +16,7 @@ rlf_result real_run(real_table *table, const real_options *options)
         {"objects on tables", real_objects_run}, {"still clips", real_still_run},
         {"filled pixels", real_fill_run},        {"silhouettes", real_silhouettes_run},
         {"gravity", real_gravity_run},           {"moving cameras", real_moving_run},
+        {"standing cameras", real_standing_run},
     };
     if (!real_is_there(options->folder)) {
         printf("real clips: SKIPPED, there is no folder %s\n", options->folder);

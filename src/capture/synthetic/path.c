@@ -7,6 +7,7 @@
 #define CLEARANCE 0.3  /* metres that the camera keeps from what stands */
 #define LOOKED_AT 20.0 /* seconds of the path whose clearance is looked at */
 #define PIVOT 2.0      /* metres ahead: what an orbit goes about */
+#define STOOD 2.0      /* seconds before a camera that stands is moved */
 
 /* Six numbers of a camera, path frame: metres; radians about y, then x, then z. */
 typedef struct placed {
@@ -73,6 +74,17 @@ static placed fast(double t)
                     0.10 * wave(t, 0.6, 2.0)};
 }
 
+/* From where it stands to where it stands then; `s` of the way. */
+static placed carried(double s)
+{
+    return (placed){{0.25 * s, -0.06 * s, 0.15 * s}, 0.2 * s, 0.06 * s, -0.03 * s};
+}
+
+static placed bump(double s)
+{
+    return (placed){{0.008 * s, 0.004 * s, -0.004 * s}, 0.014 * s, 0.01 * s, 0.004 * s};
+}
+
 static placed place_at(rlf_synthetic_path kind, double t)
 {
     switch (kind) {
@@ -81,6 +93,8 @@ static placed place_at(rlf_synthetic_path kind, double t)
     case RLF_SYNTHETIC_PATH_HANDHELD: return handheld(t);
     case RLF_SYNTHETIC_PATH_LOOK_AWAY: return look_away(t);
     case RLF_SYNTHETIC_PATH_FAST: return fast(t);
+    case RLF_SYNTHETIC_PATH_CARRIED: return carried(ease((t - STOOD) / 1.5));
+    case RLF_SYNTHETIC_PATH_BUMP: return bump(ease((t - STOOD) / 0.2));
     default: return (placed){.yaw = 0.0};
     }
 }

@@ -31,25 +31,26 @@ static rlf_result open_map(moving *m, const rlf_pipeline_def *def)
     return rlf_map_create(&map, &m->map);
 }
 
-/* The map begins with what was seen before the camera moved. It is a keyframe, and the first guess
- * is where the camera has come to since. */
-static rlf_result fuse_still(moving *m, const rlf_pose *T_world_camera, const moving_from *from)
+/* The map begins, or goes on, with what was seen before the camera moved. It is a keyframe, and the
+ * first guess is where the camera has come to since. */
+static rlf_result fuse_still(moving *m, const moving_from *from)
 {
     const rlf_map_view room = {.depth = from->still};
     const rlf_track_view view = {.depth = from->still};
     rlf_result result = RLF_OK;
     for (int32_t k = 0; k < STILL_WEIGHT && result == RLF_OK; k++) {
-        result = moving_fuse_whole(m, &room, T_world_camera);
+        result = moving_fuse_whole(m, &room, &from->T_world_camera);
     }
     rlf_track_result *last = &m->pose.last;
     *last = (rlf_track_result){
-        .T_world_camera = *T_world_camera, .health = RLF_TRACK_GOOD, .overlap = 1.0};
+        .T_world_camera = from->T_world_camera, .health = RLF_TRACK_GOOD, .overlap = 1.0};
     rlf_tracker_accept(m->pose.tracker, &view, from->time_ns, last);
-    const rlf_pose T_before_now = rlf_pose_invert(&from->T_now_before);
-    last->T_world_camera = rlf_pose_mul(T_world_camera, &T_before_now);
+    last->T_world_camera = m->T_world_camera;
     last->health = RLF_TRACK_WEAK;
     rlf_tracker_accept(m->pose.tracker, &view, from->time_ns, last);
     m->pose.has_first = true;
+    m->pose.has_prediction = false;
+    m->pose.proven = 0;
     rlf_map_fence(m->map);
     m->has_fence = true;
     return result;
@@ -88,7 +89,8 @@ static rlf_result check(const rlf_pipeline_def *def)
                                (int)def->reconstruct.scale_factor);
 }
 
-rlf_result moving_start(moving *m, const rlf_pipeline_def *def, const moving_from *from)
+/* For a camera that has not moved yet. */
+static rlf_result start_first(moving *m, const rlf_pipeline_def *def)
 {
     memset(m, 0, sizeof(*m));
     rlf_result result = check(def);
@@ -99,21 +101,33 @@ rlf_result moving_start(moving *m, const rlf_pipeline_def *def, const moving_fro
     m->pool = def->pool;
     m->poses = def->poses;
     m->absorb_after_s = def->reconstruct.absorb_after_s;
-    m->T_world_camera = def->T_world_camera;
-    m->told = RLF_TRACK_GOOD;
     result = open_all(m, def);
     if (result == RLF_OK) {
-        const rlf_pose moved =
-            from != NULL ? rlf_pose_invert(&from->T_now_before) : rlf_pose_identity();
-        m->T_world_camera = rlf_pose_mul(&def->T_world_camera, &moved);
-        rlf_tracker_reset(m->pose.tracker, &m->T_world_camera);
-        m->source = source_poses_begin(&m->T_world_camera, rlf_map_get_status(m->map).voxel_m);
+        rlf_tracker_reset(m->pose.tracker, &def->T_world_camera);
     }
     if (result == RLF_OK && rlf_map_get_status(m->map).block_count > 0) {
         result = camera_pose_know(&m->pose, m->map);
     }
+    return result;
+}
+
+rlf_result moving_start(moving *m, const rlf_pipeline_def *def, const moving_from *from)
+{
+    const bool is_first = m->stage == NULL;
+    rlf_result result = is_first ? start_first(m, def) : RLF_OK;
+    if (result == RLF_OK) {
+        const rlf_pose moved =
+            from != NULL ? rlf_pose_invert(&from->T_now_before) : rlf_pose_identity();
+        m->T_world_camera =
+            rlf_pose_mul(from != NULL ? &from->T_world_camera : &def->T_world_camera, &moved);
+        m->told = RLF_TRACK_GOOD;
+        m->has_before = false;
+        m->still = (absorb){.thing_count = 0};
+        m->source = source_poses_begin(&m->T_world_camera, rlf_map_get_status(m->map).voxel_m);
+        rlf_reconstruct_reset(m->stage);
+    }
     if (result == RLF_OK && from != NULL && from->still != NULL) {
-        result = fuse_still(m, &def->T_world_camera, from);
+        result = fuse_still(m, from);
     }
     m->is_on = result == RLF_OK;
     if (result != RLF_OK) {

@@ -39,13 +39,14 @@ typedef struct moving {
 
 /* What a camera has seen that stood until now. */
 typedef struct moving_from {
-    const float *still;    /* the background: a plane; NULL = none is known */
-    int64_t time_ns;       /* of this frame */
-    rlf_pose T_now_before; /* how far it has moved already */
+    rlf_pose T_world_camera; /* where it stood */
+    const float *still;      /* the background: a plane; NULL = none is known */
+    int64_t time_ns;         /* of this frame */
+    rlf_pose T_now_before;   /* how far it has moved already */
 } moving_from;
 
-/* Begins at the def's pose; `from` may be NULL: the first frame is seen from there. May allocate.
- */
+/* Begins where a camera stood; `from` may be NULL the first time: the first frame is seen from the
+ * def's pose. Goes on with the map that it has, if it moved before. May allocate. */
 rlf_result moving_start(moving *m, const rlf_pipeline_def *def, const moving_from *from);
 /* The surface of a frame, m->T_world_camera and m->track. */
 rlf_result moving_process(moving *m, const rlf_frame *frame, const rlf_surface **out);

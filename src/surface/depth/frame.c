@@ -8,7 +8,8 @@ void depth_read_frame(rlf_reconstruct *stage, const rlf_frame *frame, float *raw
                       uint8_t *reason)
 {
     depth_read(stage, frame, raw, reason);
-    if (stage->def.background_method == RLF_BACKGROUND_ADAPTIVE) {
+    if (stage->def.background_method == RLF_BACKGROUND_ADAPTIVE ||
+        stage->def.background_method == RLF_BACKGROUND_GIVEN) {
         rlf_ego_motion_watch(stage, raw);
     }
     rlf_stage_add_time(stage, RLF_SURFACE_READ);

@@ -1,9 +1,11 @@
 /* Whether the camera itself moves: then all that stands still seems to move as one rigid thing.
  *
- * A sparse set of points and normals of a frame a little earlier is laid onto the newest depth, by
- * point-to-plane distances (Chen and Medioni 1992) under Tukey's weights. The camera moves when
- * most of the points at which that motion can be told from rest agree with it and hardly any with
- * rest. Somebody who walks by, however large, leaves the room behind him at rest. */
+ * A sparse set of points and normals of an earlier frame is laid onto the newest depth, by
+ * point-to-plane distances (Chen and Medioni 1992) under Tukey's weights. Rest is the rival: in
+ * each part of the picture the motion must explain what is seen better than rest does. The camera
+ * moves when it does so in most parts, and in nearly all at which that motion would be seen.
+ * Somebody who walks by, however large, leaves the room behind him at rest; a bare wall cannot tell
+ * a motion along itself, so who turns before it decides nothing. */
 #include "surface/motion/ego_motion.h"
 
 #include "surface/stage.h"
@@ -11,28 +13,37 @@
 #include "kernel/kernel.h"
 #include "math/solve_six.h"
 
+#include <math.h>
+
 enum {
     PASSES = 5,
-    MOST_AGE = 8,      /* frames that slow motion may take to be seen, and is taken to go on */
+    PERIOD = 8,        /* frames between two views that are kept: the older is 8 to 16 frames old */
+    MOVING_PERIOD = 4, /* while the camera moves: its end is seen earlier */
+    HOLD = 4,          /* frames that motion is taken to go on though it is not seen */
     SURE_FRAMES = 2,   /* in a row */
     FEWEST_OF_PART = 8 /* points that tell anything */
 };
 
 static const double gates_m[PASSES] = {0.3, 0.15, 0.05, 0.0, 0.0};
-static const double tukey = 4.685;       /* sigmas; 95 % efficient (Holland and Welsch 1977) */
-static const double rest_square = 1.5;   /* of sigmas, mean: 1 is noise alone */
-static const double told_square = 64.0;  /* sigmas of a part's motion, squared */
-static const double off_share = 0.25;    /* of the motion that a point may be off: it is curved */
-static const double moving_off = 0.4;    /* share of its motion that a part may be off */
-static const double least_parts = 0.75;  /* of the parts move, and more */
+static const double tukey = 4.685;      /* sigmas; 95 % efficient (Holland and Welsch 1977) */
+static const double rest_square = 1.5;  /* of sigmas, mean: 1 is noise alone */
+static const double rest_sigmas = 3.0;  /* what is nearer to rest than that is at rest */
+static const double told_square = 64.0; /* sigmas of a part's motion, squared */
+static const double off_share = 0.25;   /* of the motion that a point may be off: it is curved */
+static const double least_gain = 0.5;   /* of a part's motion that must be gained over rest */
+static const double least_parts = 0.75; /* of the parts move, and more, */
+static const double least_whole = 0.65; /* or this share, which must determine all of the motion */
+static const double least_asked = 0.75; /* and of those that would show the motion more than this */
+static const double least_share = 3e-3; /* of the information, for a direction, ... */
+static const double least_own = 0.01;   /* ... and so much of that is not another direction's */
 static const double least_facing = 0.25; /* cosine: depth of a grazing face says little */
-static const double ridge = 1e-3;
+static const double ridge = 3e-3;        /* of the information, for rest */
 
 typedef struct ego_job {
     const image_grid *grid;
     const float *depth;
     rlf_kernel_noise noise;
-    const rlf_ego_motion *ego;
+    const rlf_ego_view *view;
 } ego_job;
 
 /* How far the newest depth is before point k of the frame before, moved by `pose`, along its
@@ -41,7 +52,7 @@ static bool distance_to(const ego_job *job, int32_t k, const rlf_pose *pose, rlf
                         rlf_vec3 *out_normal, double *out)
 {
     const image_grid *grid = job->grid;
-    const rlf_ego_point *from = &job->ego->points[k];
+    const rlf_ego_point *from = &job->view->points[k];
     rlf_vec3 p = rlf_transform(pose, from->point);
     if (!(p.z > 0.05)) {
         return false;
@@ -67,16 +78,19 @@ static bool distance_to(const ego_job *job, int32_t k, const rlf_pose *pose, rlf
 /* Noise of such a distance. */
 static double sigma_at(const ego_job *job, int32_t k)
 {
-    const rlf_ego_point *from = &job->ego->points[k];
+    const rlf_ego_point *from = &job->view->points[k];
     double facing = -rlf_dot(from->normal, from->point) / from->point.z;
     return 1.41421356 * rlf_kernel_sigma(job->noise, (float)from->point.z) * facing;
 }
 
-/* One step of Gauss and Newton. */
+/* One step of Gauss and Newton. A direction that hardly any point determines goes back to rest. */
 static void improve(const ego_job *job, double gate, rlf_pose *pose)
 {
+    const double twice = pose->q.w < 0.0 ? -2.0 : 2.0; /* small turns */
+    const double now[6] = {pose->p.x,         pose->p.y,         pose->p.z,
+                           twice * pose->q.x, twice * pose->q.y, twice * pose->q.z};
     double a[6][6] = {{0}}, b[6] = {0}, x[6], total = 0.0;
-    for (int32_t k = 0; k < job->ego->count; k++) {
+    for (int32_t k = 0; k < job->view->count; k++) {
         rlf_vec3 p, n;
         double off, sigma = sigma_at(job, k);
         double bound = rlf_max(gate, tukey * sigma);
@@ -96,6 +110,7 @@ static void improve(const ego_job *job, double gate, rlf_pose *pose)
     }
     for (int r = 0; r < 6; r++) {
         a[r][r] += ridge * (total + 1.0);
+        b[r] -= ridge * (total + 1.0) * now[r];
     }
     math_solve_six(a, b, x);
     const rlf_pose step = {{x[0], x[1], x[2]},
@@ -103,143 +118,257 @@ static void improve(const ego_job *job, double gate, rlf_pose *pose)
     *pose = rlf_pose_mul(&step, pose);
 }
 
-/* One of twelve parts of the picture: how what its points have moved along their normals follows
- * what the motion says, by weighted least squares. product / square is 1 when they move so, 0 at
- * rest. */
+/* One of twelve parts of the picture, in squared sigmas. */
 typedef struct ego_part {
-    int32_t points, fitting;
-    double square, product; /* of said motions; of said and seen ones; in sigmas */
+    int32_t points, fitting, resting; /* fitting: the motion; resting: at rest */
+    double said, gain; /* said: the motion there; gain: how much better than rest it explains */
 } ego_part;
 
 enum { PARTS_X = 4, PARTS_Y = 3, PARTS = PARTS_X * PARTS_Y, FEWEST = PARTS / 2 * FEWEST_OF_PART };
 
+static double square_of(double off, double sigma)
+{
+    return rlf_min(off * off / (sigma * sigma), tukey * tukey);
+}
+
+static int32_t part_index(const image_grid *grid, int32_t pixel)
+{
+    const int32_t x = pixel % grid->width, y = pixel / grid->width;
+    return y * PARTS_Y / grid->height * PARTS_X + x * PARTS_X / grid->width;
+}
+
 static void ask(const ego_job *job, const rlf_pose *pose, ego_part parts[PARTS])
 {
-    const image_grid *grid = job->grid;
-    for (int32_t k = 0; k < job->ego->count; k++) {
-        const rlf_ego_point *from = &job->ego->points[k];
+    const rlf_pose rest = rlf_pose_identity();
+    for (int32_t k = 0; k < job->view->count; k++) {
+        const rlf_ego_point *from = &job->view->points[k];
         rlf_vec3 p, n;
-        double off;
-        if (!distance_to(job, k, pose, &p, &n, &off)) {
+        double off, off_rest;
+        if (!distance_to(job, k, &rest, &p, &n, &off_rest) ||
+            !distance_to(job, k, pose, &p, &n, &off)) {
             continue;
         }
-        int32_t x = from->pixel % grid->width, y = from->pixel / grid->width;
-        ego_part *part = &parts[y * PARTS_Y / grid->height * PARTS_X + x * PARTS_X / grid->width];
-        double sigma = sigma_at(job, k), said = rlf_dot(n, rlf_sub(p, from->point));
-        double bound = tukey * sigma + off_share * (said < 0.0 ? -said : said);
+        ego_part *part = &parts[part_index(job->grid, from->pixel)];
+        const double sigma = sigma_at(job, k), said = rlf_dot(n, rlf_sub(p, from->point));
+        const double bound = tukey * sigma + off_share * (said < 0.0 ? -said : said);
+        const double fit = square_of(off * tukey, bound);
         part->points++;
-        if (off < bound && off > -bound) {
-            part->fitting++;
-            part->square += said * said / (sigma * sigma);
-            part->product += said * (said + off) / (sigma * sigma);
-        }
+        part->fitting += off < bound && off > -bound;
+        part->said += square_of(said, sigma);
+        part->gain += square_of(off_rest, sigma) - fit;
     }
 }
 
-/* The motion must be seen nearly all over the picture: one large thing leaves some of it at rest.
- */
-static bool is_everywhere(const ego_part parts[PARTS])
+/* Whether points of the parts that are marked determine all six directions of a motion. A board is
+ * one plane: it takes the others from what is at rest. By Cholesky's steps on the normal equations
+ * with a diagonal of 1: each is what a direction tells that those before it do not. */
+static bool is_determined(const ego_job *job, const bool marked[PARTS])
 {
-    int32_t asked = 0, moving = 0;
+    double a[6][6] = {{0}}, total = 0.0;
+    for (int32_t k = 0; k < job->view->count; k++) {
+        const rlf_ego_point *from = &job->view->points[k];
+        const double sigma = sigma_at(job, k);
+        if (!marked[part_index(job->grid, from->pixel)]) {
+            continue;
+        }
+        const rlf_vec3 n = from->normal;
+        const rlf_vec3 turn = rlf_scale(rlf_cross(from->point, n), 1.0 / from->point.z);
+        const double row[6] = {n.x, n.y, n.z, turn.x, turn.y, turn.z};
+        total += 1.0 / (sigma * sigma);
+        for (int r = 0; r < 6; r++) {
+            for (int c = 0; c <= r; c++) {
+                a[r][c] += row[r] * row[c] / (sigma * sigma);
+            }
+        }
+    }
+    bool is = true;
+    for (int r = 0; r < 6 && is; r++) {
+        const double whole = a[r][r];
+        for (int c = 0; c < r; c++) {
+            for (int k = 0; k < c; k++) {
+                a[r][c] -= a[r][k] * a[c][k];
+            }
+            a[r][c] /= a[c][c];
+            a[r][r] -= a[r][c] * a[r][c];
+        }
+        is = whole > least_share * total && a[r][r] > least_own * whole;
+        a[r][r] = is ? sqrt(a[r][r]) : 1.0;
+    }
+    return is;
+}
+
+/* One large thing leaves some of the picture at rest. */
+static bool is_everywhere(const ego_job *job, const ego_part parts[PARTS])
+{
+    bool moves[PARTS] = {false};
+    int32_t seen = 0, asked = 0, moving = 0;
     for (int32_t k = 0; k < PARTS; k++) {
         const ego_part *part = &parts[k];
-        if (part->points >= FEWEST_OF_PART) {
-            bool is_told = part->square > told_square && 2 * part->fitting > part->points;
-            asked++;
-            moving += is_told && part->product > (1.0 - moving_off) * part->square &&
-                      part->product < (1.0 + moving_off) * part->square;
-        }
+        const bool is_seen = part->points >= FEWEST_OF_PART;
+        const bool is_asked = is_seen && part->said > told_square;
+        moves[k] = is_asked && 2 * part->fitting > part->points && part->gain > told_square &&
+                   part->gain > least_gain * part->said;
+        seen += is_seen;
+        asked += is_asked;
+        moving += moves[k];
     }
-    return asked >= PARTS / 2 && moving > least_parts * asked;
+    const bool is_most = 3 * moving >= PARTS && moving > least_asked * asked;
+    return is_most && (moving > least_parts * seen ||
+                       (moving > least_whole * seen && is_determined(job, moves)));
 }
 
-/* Whether all is where it was but for noise: then nothing need be fitted. */
-static bool is_at_rest(const ego_job *job)
+/* What is where it was: as many parts of the picture as more than half of their points say so; and
+ * whether all is, but for noise: then no motion need be fitted. */
+typedef struct ego_rest {
+    int32_t seen, resting;
+    bool is_all;
+} ego_rest;
+
+static ego_rest find_rest(const ego_job *job)
 {
     const rlf_pose rest = rlf_pose_identity();
+    ego_part parts[PARTS] = {0};
+    ego_rest found = {0, 0, false};
     int32_t points = 0;
     double sum = 0.0;
-    for (int32_t k = 0; k < job->ego->count; k++) {
+    for (int32_t k = 0; k < job->view->count; k++) {
         rlf_vec3 p, n;
         double off, sigma = sigma_at(job, k);
         if (distance_to(job, k, &rest, &p, &n, &off)) {
+            ego_part *part = &parts[part_index(job->grid, job->view->points[k].pixel)];
             points++;
-            sum += rlf_min(off * off / (sigma * sigma), tukey * tukey);
+            sum += square_of(off, sigma);
+            part->points++;
+            part->resting += square_of(off, sigma) < rest_sigmas * rest_sigmas;
         }
     }
-    return sum < rest_square * points;
+    for (int32_t k = 0; k < PARTS; k++) {
+        const bool is_seen = parts[k].points >= FEWEST_OF_PART;
+        found.seen += is_seen;
+        found.resting += is_seen && 2 * parts[k].resting > parts[k].points;
+    }
+    found.is_all = sum < rest_square * points;
+    return found;
+}
+
+/* Parts that people and things cover say nothing; so many are enough. */
+static bool rests(const ego_rest *found)
+{
+    return 4 * found->seen >= PARTS && 3 * found->resting >= found->seen;
 }
 
 static bool has_moved(const ego_job *job, rlf_pose *pose)
 {
     ego_part parts[PARTS] = {0};
-    if (is_at_rest(job)) {
-        *pose = rlf_pose_identity();
-        return false;
-    }
     for (int32_t pass = 0; pass < PASSES; pass++) {
         improve(job, gates_m[pass], pose);
     }
     ask(job, pose, parts);
-    bool moves = is_everywhere(parts);
-    *pose = moves ? *pose : rlf_pose_identity();
-    return moves;
+    return is_everywhere(job, parts);
 }
 
 void rlf_ego_motion_reset(rlf_ego_motion *ego)
 {
-    ego->count = ego->age = ego->seen_frames = ego->hold = 0;
-    ego->moves = false;
-    ego->pose = ego->step = ego->found = rlf_pose_identity();
+    ego->views[0].count = ego->views[1].count = 0;
+    ego->newest = ego->age = ego->seen_frames = ego->hold = 0;
+    ego->moves = ego->rests = false;
+    ego->pose = ego->step = ego->found = ego->newest_pose = rlf_pose_identity();
+}
+
+static ego_job make_job(const rlf_reconstruct *stage, const float *depth)
+{
+    const rlf_ego_motion *ego = &stage->ego;
+    return (ego_job){&stage->grid, depth, rlf_kernel_noise_make(&stage->def.rig.noise),
+                     &ego->views[1 - ego->newest]};
+}
+
+bool rlf_reconstruct_is_as_before(const rlf_reconstruct *stage, const float *depth)
+{
+    if (!RLF_ASSERT(stage != NULL && depth != NULL)) {
+        return false;
+    }
+    const ego_job job = make_job(stage, depth);
+    const ego_rest found = find_rest(&job);
+    return rests(&found) && 2 * found.resting >= found.seen;
 }
 
 void rlf_ego_motion_watch(rlf_reconstruct *stage, const float *depth)
 {
     rlf_ego_motion *ego = &stage->ego;
-    const ego_job job = {&stage->grid, depth, rlf_kernel_noise_make(&stage->def.rig.noise), ego};
-    if (ego->count < FEWEST) {
+    const ego_job job = make_job(stage, depth);
+    ego->age++;
+    ego->rests = false;
+    if (job.view->count < FEWEST) {
         return;
     }
     const rlf_pose before = ego->pose, back = rlf_pose_invert(&before);
+    const ego_rest rest = find_rest(&job);
     ego->pose = rlf_pose_mul(&ego->step, &ego->pose);
-    bool has = has_moved(&job, &ego->pose);
+    const bool has = !rest.is_all && has_moved(&job, &ego->pose);
+    ego->rests = !has && rests(&rest);
+    ego->pose = has ? ego->pose : rlf_pose_identity();
     ego->step = has ? rlf_pose_mul(&ego->pose, &back) : rlf_pose_identity();
     ego->found = has ? ego->pose : ego->found;
-    ego->age++;
     ego->seen_frames = has ? ego->seen_frames + 1 : 0;
     if (has && (ego->moves || ego->seen_frames >= SURE_FRAMES)) {
         ego->moves = true;
-        ego->hold = MOST_AGE;
-        ego->age = MOST_AGE;
+        ego->hold = HOLD;
     } else if (ego->moves) {
         ego->hold--;
         ego->moves = ego->hold > 0;
     }
 }
 
-void rlf_ego_motion_remember(rlf_reconstruct *stage, const rlf_slot *slot)
+static void keep_each(rlf_ego_view *view, const image_grid *grid, const rlf_slot *slot,
+                      int32_t step)
 {
-    rlf_ego_motion *ego = &stage->ego;
-    const image_grid *grid = &stage->grid;
-    if (ego->count >= FEWEST && ego->age < MOST_AGE) {
-        return;
-    }
-    int32_t step = 1;
-    while ((int64_t)(grid->width / step + 1) * (grid->height / step + 1) > RLF_EGO_POINTS) {
-        step++;
-    }
-    ego->count = ego->age = 0;
-    ego->pose = rlf_pose_identity();
+    view->count = 0;
     for (int32_t y = step / 2; y < grid->height; y += step) {
-        for (int32_t x = step / 2; x < grid->width; x += step) {
+        for (int32_t x = step / 2; x < grid->width && view->count < RLF_EGO_POINTS; x += step) {
             int32_t i = y * grid->width + x;
             double z = slot->depth[i];
             rlf_vec3 p = {z * grid->ray_x[i], z * grid->ray_y[i], z};
             rlf_vec3 n = {slot->normal[0][i], slot->normal[1][i], slot->normal[2][i]};
             bool faces = -rlf_dot(n, p) > least_facing * rlf_length(p);
             if (z > 0.0 && faces && slot->reason[i] == RLF_REASON_OK) {
-                ego->points[ego->count++] = (rlf_ego_point){p, n, i};
+                view->points[view->count++] = (rlf_ego_point){p, n, i};
             }
         }
+    }
+}
+
+/* As many points as there is room for: where much has no depth, what has is asked more closely. */
+static void keep(rlf_ego_view *view, const image_grid *grid, const rlf_slot *slot)
+{
+    int32_t step = 1;
+    while ((int64_t)(grid->width / step + 1) * (grid->height / step + 1) > RLF_EGO_POINTS) {
+        step++;
+    }
+    keep_each(view, grid, slot, step);
+    const double finer = step * sqrt(1.1 * view->count / RLF_EGO_POINTS);
+    if (view->count >= FEWEST && (int32_t)finer + 1 < step) {
+        keep_each(view, grid, slot, (int32_t)finer + 1);
+    }
+}
+
+/* The newer view becomes the older one, and motion is counted from there. */
+void rlf_ego_motion_remember(rlf_reconstruct *stage, const rlf_slot *slot)
+{
+    rlf_ego_motion *ego = &stage->ego;
+    const bool is_first = ego->views[ego->newest].count < FEWEST;
+    if (stage->sight.is_blind) {
+        return;
+    }
+    if (!is_first && ego->age < (ego->moves ? MOVING_PERIOD : PERIOD)) {
+        return;
+    }
+    const rlf_pose back = rlf_pose_invert(&ego->newest_pose);
+    ego->pose = is_first ? rlf_pose_identity() : rlf_pose_mul(&ego->pose, &back);
+    ego->newest_pose = ego->pose;
+    ego->age = 0;
+    ego->newest = 1 - ego->newest;
+    keep(&ego->views[ego->newest], &stage->grid, slot);
+    if (is_first) {
+        ego->views[1 - ego->newest] = ego->views[ego->newest];
     }
 }

@@ -13,19 +13,26 @@ typedef struct rlf_ego_point {
     int32_t pixel;
 } rlf_ego_point;
 
-typedef struct rlf_ego_motion {
+typedef struct rlf_ego_view {
     rlf_ego_point points[RLF_EGO_POINTS];
-    int32_t count, age;  /* age: frames since they were seen */
-    rlf_pose pose, step; /* their motion since then, and that of the last frame */
-    rlf_pose found;      /* their motion when it was seen last */
-    int32_t seen_frames; /* in a row in which the camera moved */
-    int32_t hold;        /* frames for which it is still taken to move */
+    int32_t count;
+} rlf_ego_view;
+
+typedef struct rlf_ego_motion {
+    rlf_ego_view views[2]; /* two earlier frames; motion is asked since the older one */
+    int32_t newest, age;   /* of the views; age: frames since it was seen */
+    rlf_pose newest_pose;  /* its points' motion since the older one */
+    rlf_pose pose, step;   /* motion since the older one, and that of the last frame */
+    rlf_pose found;        /* motion when it was seen last */
+    int32_t seen_frames;   /* in a row in which the camera moved */
+    int32_t hold;          /* frames for which it is still taken to move */
     bool moves;
+    bool rests; /* enough of the view is where it was */
 } rlf_ego_motion;
 
 void rlf_ego_motion_reset(rlf_ego_motion *ego);
 
-/* Sets stage->ego.moves by a frame's depth as it came: a plane. */
+/* Sets stage->ego.moves and .rests by a frame's depth as it came: a plane. */
 void rlf_ego_motion_watch(rlf_reconstruct *stage, const float *depth);
 
 /* The frame that was just made may be the one that later ones are compared with. */
