@@ -156,10 +156,11 @@ static void collide_out_of_view(grid_job *job, grid_shift shift, unseen_hits *be
     job->motion.centre = centre;
     beyond->nearest2 = job->scan.nearest2;
     for (int32_t i = 0; i < job->hit_count && beyond->count < OUT_OF_VIEW_MAX; i++) {
-        if (grid_goes_on(query, &shift, &job->hits[i])) {
-            grid_hit *hit = &beyond->hits[beyond->count++];
-            *hit = job->hits[i];
-            hit->point = rlf_mad(hit->point, shift.way, -shift.length);
+        grid_hit hit = job->hits[i];
+        hit.point = rlf_mad(hit.point, shift.way, -shift.length);
+        if (grid_goes_on(query, &shift, &job->hits[i]) &&
+            mapped_first_known(query, centre, hit.point) == RLF_MAP_UNKNOWN) {
+            beyond->hits[beyond->count++] = hit;
         }
     }
 }
@@ -257,6 +258,32 @@ static void keep_contacts(const grid_query *query, phys_body *body)
         query_period(body, query->step, body->is_pressed ? PERIOD_AT_REST : PERIOD_MAX);
 }
 
+/* Whether the way from the body's centre to a place begins in free space, as far as it is known. */
+static bool is_from_free(const grid_job *job, rlf_vec3 place)
+{
+    field_cell cell;
+    const grid_query *query = job->query;
+    rlf_vec3 centre = job->motion.centre;
+    field_state state = grid_field_state(query->grid, query->background->sheet, centre, &cell);
+    return state == FIELD_FRONT ||
+           (state != FIELD_INSIDE && mapped_first_known(query, centre, place) == RLF_MAP_FREE);
+}
+
+/* What faces away from a body's centre in free space is the far side of a thin shell, or the guess
+ * of one: the body lies on the outer side of all that it touches. */
+static void drop_far_sides(grid_job *job)
+{
+    int32_t kept = 0;
+    for (int32_t i = 0; i < job->hit_count; i++) {
+        const grid_hit *hit = &job->hits[i];
+        if (rlf_dot(hit->normal, rlf_sub(job->motion.centre, hit->point)) > 0.0 ||
+            !is_from_free(job, hit->point)) {
+            job->hits[kept++] = *hit;
+        }
+    }
+    job->hit_count = kept;
+}
+
 /* Both sheets, the nearer first. */
 static void collide_layers(grid_job *job, grid_shift shift, phys_body *body, int32_t body_index)
 {
@@ -273,9 +300,9 @@ static void collide_layers(grid_job *job, grid_shift shift, phys_body *body, int
     collide_out_of_view(job, shift, &beyond);
     collide_layer(job, query->background, &body->side[1]);
     add_out_of_view(job, &beyond);
-    mapped_drop_guesses(job);
     grid_unseen_collide(job);
     mapped_collide(job);
+    drop_far_sides(job);
     body->surface_clear = rlf_min(body->surface_clear, clearance_of(job));
     grid_reduce(job, body, body_index, RLF_CONTACT_BACKGROUND);
 }
