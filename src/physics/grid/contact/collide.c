@@ -86,6 +86,14 @@ static bool is_swept(const grid_job *job, const field_cell *cell, rlf_vec3 seen)
     return height + rlf_dot(cell->normal, cell->velocity) * since > 0.0;
 }
 
+/* What came behind somebody stays there while he has a hole, or is lost for a frame. */
+static bool is_still_behind(const grid_job *job, field_state state, uint8_t side, rlf_vec3 seen)
+{
+    return state == FIELD_NONE && side == FIELD_BEHIND &&
+           job->tiles == job->query->foreground &&
+           grid_field_may_hide(job->query->grid, job->sheet, seen);
+}
+
 /* Inside a solid a body still belongs to the side from which it came. True when it is inside, or
  * the solid swept over it. */
 static bool update_side(grid_job *job, uint8_t *side)
@@ -101,7 +109,8 @@ static bool update_side(grid_job *job, uint8_t *side)
         *side = FIELD_NONE; /* whatever the sheet guesses of its back */
     } else if (state == FIELD_BEHIND && *side == FIELD_FRONT && is_swept(job, &cell, seen)) {
         *side = FIELD_INSIDE;
-    } else if (state != FIELD_INSIDE && !(state == FIELD_BEHIND && *side == FIELD_INSIDE)) {
+    } else if (state != FIELD_INSIDE && !(state == FIELD_BEHIND && *side == FIELD_INSIDE) &&
+               !is_still_behind(job, state, *side, seen)) {
         *side = (uint8_t)state;
     }
     job->side = (field_side){(field_state)*side, seen, true};
