@@ -89,8 +89,7 @@ static bool is_swept(const grid_job *job, const field_cell *cell, rlf_vec3 seen)
 /* What came behind somebody stays there while he has a hole, or is lost for a frame. */
 static bool is_still_behind(const grid_job *job, field_state state, uint8_t side, rlf_vec3 seen)
 {
-    return state == FIELD_NONE && side == FIELD_BEHIND &&
-           job->tiles == job->query->foreground &&
+    return state == FIELD_NONE && side == FIELD_BEHIND && job->tiles == job->query->foreground &&
            grid_field_may_hide(job->query->grid, job->sheet, seen);
 }
 

@@ -65,26 +65,6 @@ static bool enters(const grid_query *query, const rlf_grid_sheet *sheet, rlf_vec
            grid_cast(query->grid, sheet, start, path, 0.0, &outside, hit);
 }
 
-/* Whether the way of something that came behind the sheet leaves it through the face that is seen.
- */
-static bool comes_out(const grid_query *query, const rlf_grid_sheet *sheet, rlf_vec3 from,
-                      rlf_vec3 to, rlf_vec3 flow, field_hit *hit)
-{
-    rlf_vec3 start = rlf_mad(from, flow, -query->tau);
-    rlf_vec3 end = rlf_add(start, rlf_mad(rlf_sub(to, from), flow, -query->step));
-    field_cell cell, before;
-    if (sheet->depth == NULL || sheet->normal_x == NULL ||
-        grid_field_at(query->grid, sheet, end, &cell) != FIELD_FRONT ||
-        rlf_dot(cell.normal, rlf_sub(start, cell.point)) > 0.0) {
-        return false;
-    }
-    field_state was = grid_field_at(query->grid, sheet, start, &before);
-    hit->normal = rlf_neg(cell.normal);
-    hit->point = cell.point;
-    hit->label = cell.label;
-    return was == FIELD_INSIDE || was == FIELD_BEHIND;
-}
-
 /* Bounces a body that moves into the wall, from where it was before. */
 static bool hold_back(const grid_query *query, phys_body *body, int32_t body_index, rlf_vec3 before,
                       const guard_wall *wall)
@@ -103,7 +83,7 @@ static bool is_map_asked(const grid_query *query, rlf_vec3 from, const field_hit
     return mapped_answers(query, from) || mapped_answers(query, hit->point);
 }
 
-/* The same by the map, where the grid does not see. */
+/* The same by the map. */
 static void guard_by_map(const grid_query *query, phys_body *body, int32_t body_index,
                          rlf_vec3 before)
 {
@@ -131,10 +111,8 @@ void grid_guard_centre(const grid_query *query, phys_body *body, int32_t body_in
         if (i == 0 && body->grab != NULL) {
             continue; /* fingers may close on it as far as they like */
         }
-        bool is_out = body->side[i] == FIELD_BEHIND && i == 0 &&
-                      comes_out(query, sheets[i], from, to, flow, &hit);
-        if (!is_out && (!enters(query, sheets[i], from, to, flow, &hit) ||
-                        (i == 1 && is_map_asked(query, from, &hit)))) {
+        if (!enters(query, sheets[i], from, to, flow, &hit) ||
+            (i == 1 && is_map_asked(query, from, &hit))) {
             continue;
         }
         guard_wall wall = {.other = others[i], .label = hit.label};

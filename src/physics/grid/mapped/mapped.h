@@ -27,7 +27,7 @@ bool mapped_distance(const grid_query *query, rlf_vec3 q, double *out);
 /* Whether nobody sees q, and the map knows that it is free. */
 bool mapped_is_open(const grid_query *query, rlf_vec3 q);
 
-/* Either of them. */
+/* Whether the map tells of q (grid frame) in one of these ways. */
 bool mapped_answers(const grid_query *query, rlf_vec3 q);
 
 /* What the map first knows on the way from a place to another (grid frame); UNKNOWN: nothing. */
