@@ -159,10 +159,11 @@ RLF_API bool rlf_world_apply_force(rlf_world *world, rlf_body_id id, rlf_vec3 fo
 /* Gravity, m/s^2, from now on; bodies that sleep wake up. False when it is not finite. */
 RLF_API bool rlf_world_set_gravity(rlf_world *world, rlf_vec3 gravity);
 
-/* The static room where the grid does not see: beyond its view, and behind what it shows. Borrowed
- * until the next call or the world's end; it may be fused into between advances, not during one.
- * Same world frame as the poses of the grids. NULL (at first): nothing is known there, and all is
- * as without. Live method only. Free: call it when the room changes hands, not every frame. */
+/* The static room. As far as it is known it is what bodies meet of all that stands, in view or not;
+ * the grid answers for what moves and for what is not known. Borrowed until the next call or the
+ * world's end; it may be fused into between advances, not during one. Same world frame as the poses
+ * of the grids. NULL (at first): nothing is known, and all is as without. Live method only. Free:
+ * call it when the room changes hands, not every frame. */
 RLF_API void rlf_world_set_room(rlf_world *world, const struct rlf_map *room);
 
 /* Advances time by dt seconds against the surface `grid`, which may be NULL for empty space and is

@@ -13,8 +13,10 @@
 #define TOUCH_SPEED 0.02    /* m/s of what wakes a sleeper by touching it */
 #define STILL_TIME 0.45     /* s, so two blocks without drift */
 #define TOUCHING 0.001      /* m */
-/* How far a surface may wander under a sleeper: several sigma of a depth camera at 2 m. */
+/* How far a surface may wander under a sleeper: several sigma of a depth camera at 2 m. Noise grows
+ * with the square of the distance (Khoshelham and Elberink 2012). */
 #define WANDER 0.006
+#define WANDER_AT 2.0
 
 static bool has_left_its_place(const phys_body *body)
 {
@@ -81,6 +83,12 @@ static bool is_reached(const phys_contact *c, double horizon)
            rlf_length(c->surface_velocity) > TOUCH_SPEED;
 }
 
+static double wander_of(const grid_query *query, const phys_body *body)
+{
+    double far = rlf_transform(&query->T_grid_world, body->x).z / WANDER_AT;
+    return WANDER * rlf_max(1.0, far * far);
+}
+
 /* Asks the surface under a sleeper once more; whether it moves, came closer or went away. */
 static bool has_moved(const grid_query *query, phys_body *body, int32_t index, double horizon)
 {
@@ -92,8 +100,8 @@ static bool has_moved(const grid_query *query, phys_body *body, int32_t index, d
         c->separation = gap_now(body, c);
         is_moved = is_moved || is_reached(c, horizon);
     }
-    double change = least_separation(body) - before;
-    return is_moved || change > WANDER || change < -WANDER;
+    double change = least_separation(body) - before, wander = wander_of(query, body);
+    return is_moved || change > wander || change < -wander;
 }
 
 /* Whether the grid sees all places at which a sleeper touches the surface. In a room that is known

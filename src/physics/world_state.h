@@ -160,7 +160,7 @@ struct rlf_world {
     int64_t background_version;
     rlf_pose grid_pose;
     int64_t rest_version; /* while it is the same, what stays does not change under a sleeper */
-    const struct rlf_map *map; /* the room where the grid does not see; NULL = none */
+    const struct rlf_map *map; /* the room as far as it is known; NULL = it is not */
     room_planes room;
     rlf_pose room_pose; /* of the grid in the world when its planes were found */
     double room_time;   /* ... and the world's time */

@@ -1,6 +1,7 @@
 /* Section moving: the camera moves through the synthetic room, its pose is found. */
 #include "eval/moving/loop.h"
 #include "eval/moving/moving.h"
+#include "eval/moving/rested.h"
 #include "eval/moving/thrown.h"
 #include "eval/sections.h"
 
@@ -91,6 +92,32 @@ static rlf_result run_thrown(eval_table *table, int64_t seed)
     return result;
 }
 
+static rlf_result run_rested(eval_table *table, int64_t seed)
+{
+    const char *const paths[2] = {"look_away", "orbit"};
+    rested_figures f = {0};
+    rlf_result result = RLF_OK;
+    for (int32_t i = 0; i < 2 && result == RLF_OK; i++) {
+        char text[256];
+        (void)snprintf(text, sizeof(text), "synthetic:empty?path=%s&color=0&frames=125&seed=%lld",
+                       paths[i], (long long)seed);
+        result = rested_measure(text, seed, &f);
+    }
+    if (result == RLF_OK) {
+        fprintf(stderr, "moving rested: %d put, lost %d, flung %d, sunk %d, woken %d\n", (int)f.put,
+                (int)f.lost, (int)f.flung, (int)f.sunk, (int)f.woken);
+        eval_table_add(table, "moving rested", "lost", "bodies at rest that leave, of 1000",
+                       RLF_PROFILE_LIVE, f.lost);
+        eval_table_add(table, "moving rested", "flung", "  that move by more than 5 cm",
+                       RLF_PROFILE_LIVE, f.flung);
+        eval_table_add(table, "moving rested", "sunk", "  that sink by more than 2 cm",
+                       RLF_PROFILE_LIVE, f.sunk);
+        eval_table_add(table, "moving rested", "woken", "  that wake up", RLF_PROFILE_LIVE,
+                       f.woken);
+    }
+    return result;
+}
+
 /* From 1 s on: by then the room is known. */
 static rlf_result run_loop(eval_table *table, int64_t seed)
 {
@@ -121,6 +148,7 @@ static rlf_result run_loop(eval_table *table, int64_t seed)
 rlf_result eval_moving_run(eval_table *table, int64_t seed, int profile_mask)
 {
     rlf_result result = run_thrown(table, seed);
+    result = result == RLF_OK ? run_rested(table, seed) : result;
     result = result == RLF_OK ? run_loop(table, seed) : result;
     (void)profile_mask; /* poses do not depend on it */
     for (size_t i = 0; i < sizeof(clips) / sizeof(clips[0]) && result == RLF_OK; i++) {

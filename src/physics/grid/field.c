@@ -142,6 +142,12 @@ bool grid_field_is_seen_through(const rlf_grid *grid, const rlf_grid_sheet *shee
            plane_depth(&cell, q) > q.z + SEEN_BEHIND;
 }
 
+bool grid_field_may_hide(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q)
+{
+    int32_t x, y;
+    return grid_pixel_of(grid, q, &x, &y) && !(sheet->depth[y * grid->width + x] > q.z);
+}
+
 bool grid_field_is_well_before(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
                                double height)
 {

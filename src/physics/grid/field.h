@@ -84,6 +84,10 @@ bool grid_field_is_well_before(const rlf_grid *grid, const rlf_grid_sheet *sheet
 /* Whether the sheet is seen well behind q, so that nothing of it is there. */
 bool grid_field_is_seen_through(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q);
 
+/* Whether something that was behind the sheet may still be at q: no pixel there looks past it, as
+ * where one has no depth, or where the sheet has lost what hides q. */
+bool grid_field_may_hide(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q);
+
 /* Where the cell's ray leaves the solid. */
 rlf_vec3 grid_back_point(const field_cell *cell);
 

@@ -86,6 +86,13 @@ static bool is_swept(const grid_job *job, const field_cell *cell, rlf_vec3 seen)
     return height + rlf_dot(cell->normal, cell->velocity) * since > 0.0;
 }
 
+/* What came behind somebody stays there while he has a hole, or is lost for a frame. */
+static bool is_still_behind(const grid_job *job, field_state state, uint8_t side, rlf_vec3 seen)
+{
+    return state == FIELD_NONE && side == FIELD_BEHIND && job->tiles == job->query->foreground &&
+           grid_field_may_hide(job->query->grid, job->sheet, seen);
+}
+
 /* Inside a solid a body still belongs to the side from which it came. True when it is inside, or
  * the solid swept over it. */
 static bool update_side(grid_job *job, uint8_t *side)
@@ -101,7 +108,8 @@ static bool update_side(grid_job *job, uint8_t *side)
         *side = FIELD_NONE; /* whatever the sheet guesses of its back */
     } else if (state == FIELD_BEHIND && *side == FIELD_FRONT && is_swept(job, &cell, seen)) {
         *side = FIELD_INSIDE;
-    } else if (state != FIELD_INSIDE && !(state == FIELD_BEHIND && *side == FIELD_INSIDE)) {
+    } else if (state != FIELD_INSIDE && !(state == FIELD_BEHIND && *side == FIELD_INSIDE) &&
+               !is_still_behind(job, state, *side, seen)) {
         *side = (uint8_t)state;
     }
     job->side = (field_side){(field_state)*side, seen, true};
@@ -156,10 +164,11 @@ static void collide_out_of_view(grid_job *job, grid_shift shift, unseen_hits *be
     job->motion.centre = centre;
     beyond->nearest2 = job->scan.nearest2;
     for (int32_t i = 0; i < job->hit_count && beyond->count < OUT_OF_VIEW_MAX; i++) {
-        if (grid_goes_on(query, &shift, &job->hits[i])) {
-            grid_hit *hit = &beyond->hits[beyond->count++];
-            *hit = job->hits[i];
-            hit->point = rlf_mad(hit->point, shift.way, -shift.length);
+        grid_hit hit = job->hits[i];
+        hit.point = rlf_mad(hit.point, shift.way, -shift.length);
+        if (grid_goes_on(query, &shift, &job->hits[i]) &&
+            mapped_first_known(query, centre, hit.point) == RLF_MAP_UNKNOWN) {
+            beyond->hits[beyond->count++] = hit;
         }
     }
 }
@@ -257,6 +266,32 @@ static void keep_contacts(const grid_query *query, phys_body *body)
         query_period(body, query->step, body->is_pressed ? PERIOD_AT_REST : PERIOD_MAX);
 }
 
+/* Whether the way from the body's centre to a place begins in free space, as far as it is known. */
+static bool is_from_free(const grid_job *job, rlf_vec3 place)
+{
+    field_cell cell;
+    const grid_query *query = job->query;
+    rlf_vec3 centre = job->motion.centre;
+    field_state state = grid_field_state(query->grid, query->background->sheet, centre, &cell);
+    return state == FIELD_FRONT ||
+           (state != FIELD_INSIDE && mapped_first_known(query, centre, place) == RLF_MAP_FREE);
+}
+
+/* What faces away from a body's centre in free space is the far side of a thin shell, or the guess
+ * of one: the body lies on the outer side of all that it touches. */
+static void drop_far_sides(grid_job *job)
+{
+    int32_t kept = 0;
+    for (int32_t i = 0; i < job->hit_count; i++) {
+        const grid_hit *hit = &job->hits[i];
+        if (rlf_dot(hit->normal, rlf_sub(job->motion.centre, hit->point)) > 0.0 ||
+            !is_from_free(job, hit->point)) {
+            job->hits[kept++] = *hit;
+        }
+    }
+    job->hit_count = kept;
+}
+
 /* Both sheets, the nearer first. */
 static void collide_layers(grid_job *job, grid_shift shift, phys_body *body, int32_t body_index)
 {
@@ -273,9 +308,9 @@ static void collide_layers(grid_job *job, grid_shift shift, phys_body *body, int
     collide_out_of_view(job, shift, &beyond);
     collide_layer(job, query->background, &body->side[1]);
     add_out_of_view(job, &beyond);
-    mapped_drop_guesses(job);
     grid_unseen_collide(job);
     mapped_collide(job);
+    drop_far_sides(job);
     body->surface_clear = rlf_min(body->surface_clear, clearance_of(job));
     grid_reduce(job, body, body_index, RLF_CONTACT_BACKGROUND);
 }

@@ -17,7 +17,7 @@ typedef struct grid_query {
     double step;          /* s of a substep */
     int64_t rest_version; /* of what stays */
     grid_tiles *foreground, *background;
-    const struct rlf_map *map; /* the room where the grid does not see, NULL = none is known */
+    const struct rlf_map *map; /* the room as far as it is known, NULL = it is not */
     const room_planes *room;   /* NULL: there is nothing where the camera does not look */
     rlf_vec3 up;               /* unit, against gravity, grid frame; 0 without gravity */
 } grid_query;

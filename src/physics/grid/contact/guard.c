@@ -83,7 +83,7 @@ static bool is_map_asked(const grid_query *query, rlf_vec3 from, const field_hit
     return mapped_answers(query, from) || mapped_answers(query, hit->point);
 }
 
-/* The same by the map, where the grid does not see. */
+/* The same by the map. */
 static void guard_by_map(const grid_query *query, phys_body *body, int32_t body_index,
                          rlf_vec3 before)
 {

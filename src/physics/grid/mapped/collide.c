@@ -1,23 +1,34 @@
-/* Points of a body's surface against the map, where the grid does not see. */
+/* Points of a body's surface against the map. */
 #include "physics/grid/mapped/mapped.h"
 
 #include "relief/map.h"
 
-/* The directions of the map's surface about a body, grid frame. */
+/* The directions of the map's surface about a body, grid frame, and a place of each. */
 typedef struct mapped_normals {
     rlf_vec3 of[GRID_NORMALS_MAX];
+    mapped_touch touches[GRID_NORMALS_MAX];
+    bool has_touch[GRID_NORMALS_MAX];
     int32_t count;
 } mapped_normals;
 
-static void note_normal(mapped_normals *normals, rlf_vec3 normal)
+/* `touch`: NULL = none is known. */
+static void note_normal(mapped_normals *normals, rlf_vec3 normal, const mapped_touch *touch)
 {
-    for (int32_t i = 0; i < normals->count; i++) {
-        if (rlf_dot(normals->of[i], normal) > ONE_PLANE_COS) {
-            return;
-        }
+    int32_t i = 0;
+    while (i < normals->count && rlf_dot(normals->of[i], normal) <= ONE_PLANE_COS) {
+        i++;
     }
-    if (normals->count < GRID_NORMALS_MAX) {
-        normals->of[normals->count++] = normal;
+    if (i == GRID_NORMALS_MAX) {
+        return;
+    }
+    if (i == normals->count) {
+        normals->of[i] = normal;
+        normals->has_touch[i] = false;
+        normals->count++;
+    }
+    if (touch != NULL && !normals->has_touch[i]) {
+        normals->touches[i] = *touch;
+        normals->has_touch[i] = true;
     }
 }
 
@@ -27,18 +38,44 @@ static rlf_vec3 arm_of(const grid_job *job, rlf_vec3 anchor, double rounding, rl
     return rlf_mad(rlf_mat3_mul_vec(&job->motion.R_grid_body, anchor), normal, -rounding);
 }
 
-void mapped_drop_guesses(grid_job *job)
+/* Whether one of the hits from `first` on is with a face that looks that way. */
+static bool has_face(const grid_job *job, int32_t first, rlf_vec3 normal)
 {
-    int32_t kept = 0;
-    for (int32_t i = 0; job->query->map != NULL && i < job->hit_count; i++) {
-        const grid_hit *hit = &job->hits[i];
-        rlf_vec3 q =
-            rlf_add(job->motion.centre, arm_of(job, hit->anchor, hit->rounding, hit->normal));
-        if (!mapped_answers(job->query, q) && !mapped_answers(job->query, hit->point)) {
-            job->hits[kept++] = *hit;
+    for (int32_t i = first; i < job->hit_count; i++) {
+        if (rlf_dot(job->hits[i].normal, normal) > APART_COS) {
+            return true;
         }
     }
-    job->hit_count = job->query->map != NULL ? kept : job->hit_count;
+    return false;
+}
+
+/* Whether the map tells of the hit's place better: it meets that face itself, or has no face so
+ * near there. */
+static bool is_known_better(const grid_job *job, const grid_hit *hit, int32_t first)
+{
+    const grid_query *query = job->query;
+    rlf_vec3 q = rlf_add(job->motion.centre, arm_of(job, hit->anchor, hit->rounding, hit->normal));
+    double at_body, at_face;
+    if (mapped_distance(query, q, &at_body) &&
+        (has_face(job, first, hit->normal) || hit->separation < at_body - GRID_NOISE_M)) {
+        return true;
+    }
+    bool is_off = mapped_distance(query, hit->point, &at_face) &&
+                  (at_face > GRID_NOISE_M || at_face < -GRID_NOISE_M);
+    return is_off || mapped_is_open(query, q) || mapped_is_open(query, hit->point);
+}
+
+/* Of the hits before `first` keeps those of which the map does not know better. */
+static void keep_unknown(grid_job *job, int32_t first)
+{
+    int32_t kept = 0;
+    for (int32_t i = 0; i < job->hit_count; i++) {
+        if (i >= first || !is_known_better(job, &job->hits[i], first)) {
+            job->hits[kept] = job->hits[i];
+            kept++;
+        }
+    }
+    job->hit_count = kept;
 }
 
 /* Casts a point at `arm` from the centre along its way; *touch is in the world. */
@@ -48,9 +85,6 @@ static bool cast_arm(const grid_job *job, rlf_vec3 arm, double margin, mapped_to
     rlf_vec3 q = rlf_add(job->motion.centre, arm);
     rlf_vec3 v = rlf_add(job->motion.v, rlf_cross(job->motion.w, arm));
     rlf_vec3 path = rlf_scale(v, job->window.horizon);
-    if (mapped_is_seen(grid, q) && mapped_is_seen(grid, rlf_add(q, path))) {
-        return false;
-    }
     return mapped_cast(job->query, rlf_transform(&grid->T_world_grid, q),
                        rlf_rotate(grid->T_world_grid.q, path), margin, touch);
 }
@@ -77,7 +111,7 @@ static void meet_samples(grid_job *job, bool is_round, mapped_normals *normals)
         mapped_touch touch;
         rlf_vec3 none = {0, 0, 0};
         if (cast_arm(job, arm_of(job, shape->points[i], 0.0, none), margin, &touch)) {
-            note_normal(normals, rlf_rotate(job->query->T_grid_world.q, touch.normal));
+            note_normal(normals, rlf_rotate(job->query->T_grid_world.q, touch.normal), &touch);
             if (!is_round) {
                 add_touch(job, &touch, shape->points[i], 0.0, none);
             }
@@ -95,7 +129,7 @@ static void meet_face_at(grid_job *job, rlf_vec3 anchor, double rounding)
     rlf_vec3 p = rlf_transform(&job->query->grid->T_world_grid, q);
     rlf_map_point there = rlf_map_sample(job->query->map, p);
     if (there.state == RLF_MAP_UNKNOWN || rlf_dot(there.gradient, there.gradient) < 0.5 ||
-        there.distance > rounding || mapped_is_seen(job->query->grid, q)) {
+        there.distance > rounding) {
         return;
     }
     mapped_touch touch = {.normal = there.gradient};
@@ -115,6 +149,22 @@ static void meet_face_at(grid_job *job, rlf_vec3 anchor, double rounding)
     }
 }
 
+/* A point that the shape names for one of those directions, where that comes to the surface. In a
+ * small gap of what the map knows the face goes on as it is beside it. */
+static void meet_support(grid_job *job, rlf_vec3 core, double rounding,
+                         const mapped_normals *normals, int32_t i)
+{
+    rlf_vec3 normal = normals->of[i], arm = arm_of(job, core, rounding, normal);
+    double distance;
+    mapped_touch touch;
+    if (cast_arm(job, arm, GRID_MARGIN, &touch)) {
+        add_touch(job, &touch, core, rounding, normal);
+    } else if (normals->has_touch[i] && rounding > 0.0 &&
+               !mapped_distance(job->query, rlf_add(job->motion.centre, arm), &distance)) {
+        add_touch(job, &normals->touches[i], core, rounding, normal);
+    }
+}
+
 /* The points that a shape names for each of those directions. */
 static void meet_supports(grid_job *job, const mapped_normals *normals)
 {
@@ -124,13 +174,10 @@ static void meet_supports(grid_job *job, const mapped_normals *normals)
         rlf_vec3 down = rlf_mat3_mul_vec(&job->motion.R_body_grid, rlf_neg(normal));
         int32_t count = phys_shape_support(&job->body->shape, down, core, &rounding);
         for (int32_t k = 0; k < count; k++) {
-            mapped_touch touch;
             if (phys_shape_is_round(&job->body->shape)) {
                 meet_face_at(job, core[k], rounding);
             }
-            if (cast_arm(job, arm_of(job, core[k], rounding, normal), GRID_MARGIN, &touch)) {
-                add_touch(job, &touch, core[k], rounding, normal);
-            }
+            meet_support(job, core[k], rounding, normals, i);
         }
     }
 }
@@ -163,16 +210,19 @@ void mapped_collide(grid_job *job)
     rlf_map_point there = rlf_map_sample(job->query->map, centre);
     double gap = there.state == RLF_MAP_FREE ? there.distance : 0.0;
     job->scan.nearest2 = rlf_min(job->scan.nearest2, gap * gap);
+    int32_t first = job->hit_count;
     if (gap > job->window.reach) {
+        keep_unknown(job, first);
         return;
     }
     bool is_round = phys_shape_is_round(&job->body->shape);
     mapped_normals normals = {.count = 0};
     if (rlf_dot(job->query->up, job->query->up) > 0.0) {
-        note_normal(&normals, job->query->up);
+        note_normal(&normals, job->query->up, NULL);
     }
     meet_samples(job, is_round, &normals);
     meet_supports(job, &normals);
     const rlf_vec3 middle = {0, 0, 0};
     meet_face_at(job, middle, 0.0);
+    keep_unknown(job, first);
 }

@@ -17,6 +17,9 @@
 #include "physics/grid/unseen/unseen.h"
 #include "physics/grid/unseen/upright_face.h"
 
+/* The room's planes push out whatever is behind them; a guessed face stops what comes to it. */
+#define ENDLESS 1e9
+
 /* Whether the camera does not see q, or where that is as it comes to the plane, `separation` metres
  * away: what falls may leave the picture before it touches. */
 static bool is_hidden_way(const grid_job *job, rlf_vec3 q, rlf_vec3 v, double separation,
@@ -28,8 +31,9 @@ static bool is_hidden_way(const grid_job *job, rlf_vec3 q, rlf_vec3 v, double se
            (time > 0.0 && time <= job->window.horizon && room_is_hidden(grid, rlf_mad(q, v, time)));
 }
 
-/* The body's point against a plane where the camera does not see it. */
-static void touch_plane(grid_job *job, const room_plane *plane, rlf_vec3 anchor, double rounding)
+/* The body's point against a plane where the camera does not see it, if it is no deeper in it. */
+static void touch_plane(grid_job *job, const room_plane *plane, rlf_vec3 anchor, double rounding,
+                        double deepest)
 {
     rlf_vec3 r = rlf_mat3_mul_vec(&job->motion.R_grid_body, anchor);
     r = rlf_mad(r, plane->normal, -rounding);
@@ -37,7 +41,8 @@ static void touch_plane(grid_job *job, const room_plane *plane, rlf_vec3 anchor,
     rlf_vec3 v = rlf_add(job->motion.v, rlf_cross(job->motion.w, r));
     double approach = -rlf_dot(plane->normal, v);
     double separation = room_plane_height(plane, q);
-    if (separation < GRID_MARGIN + rlf_max(0.0, approach) * job->window.horizon &&
+    if (separation > -deepest &&
+        separation < GRID_MARGIN + rlf_max(0.0, approach) * job->window.horizon &&
         is_hidden_way(job, q, v, separation, approach) && !mapped_answers(job->query, q)) {
         grid_hit hit = {.point = rlf_mad(q, plane->normal, -separation), .normal = plane->normal};
         hit.anchor = anchor;
@@ -62,7 +67,7 @@ static void drop_backs(grid_job *job, const room_plane *plane)
     job->hit_count = kept;
 }
 
-static void collide_plane(grid_job *job, const room_plane *plane)
+static void collide_plane(grid_job *job, const room_plane *plane, double deepest)
 {
     const phys_shape *shape = &job->body->shape;
     rlf_vec3 core[2];
@@ -71,10 +76,10 @@ static void collide_plane(grid_job *job, const room_plane *plane)
     int32_t count = phys_shape_support(shape, down, core, &rounding);
     drop_backs(job, plane);
     for (int32_t k = 0; k < count; k++) {
-        touch_plane(job, plane, core[k], rounding);
+        touch_plane(job, plane, core[k], rounding, deepest);
     }
     for (int32_t k = 0; count == 0 && k < shape->vertex_count; k++) {
-        touch_plane(job, plane, shape->points[k], 0.0);
+        touch_plane(job, plane, shape->points[k], 0.0, deepest);
     }
 }
 
@@ -97,13 +102,13 @@ static bool find_upright(const grid_job *job, room_plane *out)
 }
 
 /* A plane against the body, when it is within reach. */
-static void meet_plane(grid_job *job, const room_plane *plane)
+static void meet_plane(grid_job *job, const room_plane *plane, double deepest)
 {
     double height = room_plane_height(plane, job->motion.centre);
     double gap = rlf_max(height, 0.0);
     job->scan.nearest2 = rlf_min(job->scan.nearest2, gap * gap);
     if (height <= job->window.reach) {
-        collide_plane(job, plane);
+        collide_plane(job, plane, deepest);
     }
 }
 
@@ -111,10 +116,10 @@ void grid_unseen_collide(grid_job *job)
 {
     const room_planes *room = job->query->room;
     for (int32_t i = 0; room != NULL && i < room->count; i++) {
-        meet_plane(job, &room->planes[i]);
+        meet_plane(job, &room->planes[i], ENDLESS);
     }
     room_plane upright;
     if (find_upright(job, &upright)) {
-        meet_plane(job, &upright);
+        meet_plane(job, &upright, GRID_NOISE_M);
     }
 }
