@@ -42,7 +42,7 @@ void track_points_row(const track_points *points, const rlf_rig *rig, const floa
     const double slope = SAME_SLOPE / rlf_min(rig->depth.fx, rig->depth.fy);
     for (int32_t column = 0; column < points->width; column++) {
         const size_t to = (size_t)row * (size_t)points->width + (size_t)column;
-        const size_t first = 4 * (size_t)row * width + 4 * (size_t)column;
+        const size_t first = (4 * (size_t)row + 1) * width + 4 * (size_t)column + 1;
         const size_t at[4] = {first, first + 1, first + width, first + width + 1};
         const block b = read_block(rig, view, at);
         points->z[to] = 0.0f;

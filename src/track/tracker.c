@@ -18,7 +18,7 @@ rlf_tracker_def rlf_tracker_def_default(void)
         .cookie = RLF_DEF_COOKIE,
         .gate_m = 0.1,
         .least_overlap = 0.3,
-        .least_constraint = 0.003,
+        .least_constraint = 0.001,
         .keyframe_max = 256,
     };
     return def;

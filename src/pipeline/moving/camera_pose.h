@@ -12,8 +12,12 @@ typedef struct camera_pose {
     rlf_track_result last;     /* of the last frame */
     rlf_prediction prediction; /* at the last pose, when there is one */
     bool has_prediction;
-    float *planes; /* of the prediction */
-    uint8_t *grey;
+    /* What the next frame is aligned with: the prediction, but while the camera rests what was
+     * predicted when it came to rest, so that it cannot drift with what is fused meanwhile. */
+    rlf_prediction reference;
+    bool has_reference;
+    float *planes[2]; /* of both */
+    uint8_t *grey[2];
     bool has_first;
     bool may_fuse;       /* the last pose is trusted: good, and for a while after a lost track */
     int32_t proven;      /* good frames since the track was lost, at most PROOF_FRAMES */
