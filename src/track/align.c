@@ -108,12 +108,23 @@ static bool move(rlf_pose *T, const double x[6])
     return true;
 }
 
-/* Rounds of one level; the limit for outliers follows the residuals. */
+/* The limit for outliers follows the residuals. */
+static void limit(track_gate *gate, const track_sums *sums)
+{
+    gate->cut = rlf_max(TUKEY * MEDIAN_TO_SIGMA * median_of(sums), 2.0);
+    gate->grey = sums->grey_weight > 0.0 ? sums->grey_residual / sums->grey_weight : 0.0;
+}
+
+static track_sums sums_of(const align_job *job, const level *l)
+{
+    return track_sums_of(&job->tracker->points, l->stride, job->prediction, &job->T, &job->gate);
+}
+
+/* Rounds of one level. */
 static bool align_level(align_job *job, const level *l, double least, track_sums *sums)
 {
     for (int32_t round = 0; round < l->rounds; round++) {
-        *sums =
-            track_sums_of(&job->tracker->points, l->stride, job->prediction, &job->T, &job->gate);
+        *sums = sums_of(job, l);
         if (sums->matched * l->stride * l->stride < LEAST_POINTS || !(sums->information > 0.0)) {
             return false;
         }
@@ -124,8 +135,7 @@ static bool align_level(align_job *job, const level *l, double least, track_sums
             return false;
         }
         const bool is_weighed = job->gate.asks_grey || !ways.asks_grey;
-        job->gate.cut = rlf_max(TUKEY * MEDIAN_TO_SIGMA * median_of(sums), 2.0);
-        job->gate.grey = sums->grey_weight > 0.0 ? sums->grey_residual / sums->grey_weight : 0.0;
+        limit(&job->gate, sums);
         job->gate.asks_grey = job->gate.asks_grey || ways.asks_grey;
         const double small = 1e-5; /* radians, metres */
         if (is_weighed && x[0] * x[0] + x[1] * x[1] + x[2] * x[2] < small * small &&
@@ -183,6 +193,8 @@ rlf_result rlf_tracker_align(rlf_tracker *tracker, const rlf_track_view *view,
     *out = (rlf_track_result){.T_world_camera = *start, .weak_way = {0, 0, 1}};
     track_sums sums = {.tried = 0};
     job.reach = track_reach_of(&tracker->points);
+    sums = sums_of(&job, &levels[0]); /* one that is far off pulls in no round */
+    limit(&job.gate, &sums);
     for (int i = 0; i < LEVELS; i++) {
         if (!align_level(&job, &levels[i], tracker->def.least_constraint, &sums)) {
             return RLF_OK;

@@ -1,4 +1,4 @@
-/* Of each 4 x 4 depth pixels the first 2 x 2, to a point. */
+/* Of each 4 x 4 depth pixels the 2 x 2 in the middle, to a point. */
 #include "track/points.h"
 
 /* Four pixels lie on one surface when their depths are within so many sigma, or within the slope of
@@ -56,11 +56,11 @@ void track_points_row(const track_points *points, const rlf_rig *rig, const floa
         }
         double x = 0.0, y = 0.0;
         for (int k = 0; k < 4; k++) {
-            x += 0.25 * (double)ray_x[at[k]];
-            y += 0.25 * (double)ray_y[at[k]];
+            x += 0.25 * (double)ray_x[at[k]] * (double)view->depth[at[k]];
+            y += 0.25 * (double)ray_y[at[k]] * (double)view->depth[at[k]];
         }
-        points->x[to] = (float)(x * z);
-        points->y[to] = (float)(y * z);
+        points->x[to] = (float)x;
+        points->y[to] = (float)y;
         points->z[to] = (float)z;
         points->sigma[to] = (float)(0.5 * sigma);
         points->grey[to] = b.lit == 4 ? (uint8_t)(0.25 * b.grey + 0.5) : 0;

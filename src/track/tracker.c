@@ -51,8 +51,8 @@ static rlf_result allocate(rlf_tracker *t)
 {
     const rlf_camera *camera = &t->def.rig.depth;
     const size_t pixels = (size_t)camera->width * (size_t)camera->height;
-    t->points.width = (camera->width / 2 + 1) / 2;
-    t->points.height = (camera->height / 2 + 1) / 2;
+    t->points.width = (camera->width + 1) / 4;
+    t->points.height = (camera->height + 1) / 4;
     const size_t points = (size_t)t->points.width * (size_t)t->points.height;
     t->ray_x = rlf_alloc_array(pixels, sizeof(float));
     t->ray_y = rlf_alloc_array(pixels, sizeof(float));
