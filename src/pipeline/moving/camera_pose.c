@@ -35,12 +35,14 @@ rlf_result camera_pose_open(camera_pose *c, const rlf_rig *rig, rlf_pool *pool)
             return RLF_ERROR_MEMORY;
         }
     }
-    return rlf_tracker_create(&def, &c->tracker);
+    const rlf_result result = settled_open(&c->settled, &c->camera, &rig->noise);
+    return result == RLF_OK ? rlf_tracker_create(&def, &c->tracker) : result;
 }
 
 void camera_pose_close(camera_pose *c)
 {
     rlf_tracker_destroy(&c->tracker);
+    settled_close(&c->settled);
     for (int i = 0; i < 2; i++) {
         rlf_free(c->planes[i]);
         rlf_free(c->grey[i]);
@@ -170,15 +172,11 @@ static void guard_map(camera_pose *c, rlf_map *map)
     c->may_fuse = is_good && c->proven >= PROOF_FRAMES;
 }
 
-void camera_pose_mark_static(const camera_pose *c, const rlf_surface *s, uint8_t *is_static)
+void camera_pose_mark_static(camera_pose *c, const rlf_surface *s, uint8_t *is_static)
 {
     const rlf_prediction *p = &c->prediction;
-    if (!c->has_prediction) { /* the first frame */
-        memset(is_static, 1, (size_t)s->width * (size_t)s->height);
-        return;
-    }
-    for (int32_t i = 0; i < s->width * s->height; i++) {
-        is_static[i] = 1;
+    memset(is_static, 1, (size_t)s->width * (size_t)s->height);
+    for (int32_t i = 0; c->has_prediction && i < s->width * s->height; i++) {
         if (!(s->depth[i] > 0.0f)) {
             continue;
         }
@@ -194,6 +192,7 @@ void camera_pose_mark_static(const camera_pose *c, const rlf_surface *s, uint8_t
             rlf_max(IN_FRONT_M, IN_FRONT_SIGMAS * rlf_depth_noise_sigma(&c->noise, q.z));
         is_static[i] = !(room > 0.0 && q.z < room - nearer);
     }
+    settled_mark(&c->settled, c->has_prediction ? p : NULL, s, &c->last.T_world_camera, is_static);
 }
 
 /* What the map shows from where the camera is; a new reference when it is elsewhere. */
