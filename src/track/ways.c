@@ -39,7 +39,8 @@ double track_along(const track_ways *ways, int k, const double motion[6])
 
 double track_error(const track_ways *ways, int k)
 {
-    return SHARED * rlf_max(ways->sigma, LEAST_SIGMA) / sqrt(rlf_max(ways->information[k], 1e-12));
+    return ways->shared * rlf_max(ways->sigma, LEAST_SIGMA) /
+           sqrt(rlf_max(ways->information[k], 1e-12));
 }
 
 /* The information about two motions, and what is said of one. */
@@ -83,7 +84,9 @@ static void part(track_ways *w, double a[6][6])
 /* Depth alone. */
 static track_ways depth_ways(const track_sums *sums, double reach)
 {
-    track_ways w = {.reach = reach, .sigma = sqrt(sums->squared / rlf_max(sums->weight, 1e-12))};
+    track_ways w = {.reach = reach,
+                    .sigma = sqrt(sums->squared / rlf_max(sums->weight, 1e-12)),
+                    .shared = SHARED / sums->stride};
     double a[6][6];
     for (int k = 0; k < 6; k++) {
         w.way[k][k] = k < 3 ? 1.0 / reach : 1.0;

@@ -12,7 +12,8 @@ typedef struct track_ways {
     double way[6][6];      /* of each: a motion */
     double information[6]; /* about each, m^-2; in no order */
     double pull[6];        /* the right side along each: pull / information is how far to go */
-    double sigma;          /* an error of one metre's share: times 1 / sqrt(information) */
+    double sigma;          /* of what was measured, in expected deviations */
+    double shared;         /* so many times worse than of its own errors a mean is */
     bool asks_grey;        /* depth leaves a way open to brightness */
 } track_ways;
 
@@ -22,8 +23,7 @@ double track_reach_of(const track_points *points);
 track_ways track_ways_of(const track_sums *sums, double reach);
 /* The component of a motion along a way, metres. */
 double track_along(const track_ways *ways, int k, const double motion[6]);
-/* Expected error along a way, metres: neighbours share their errors, so that many points tell less
- * than as many times one. */
+/* Expected error along a way, metres. */
 double track_error(const track_ways *ways, int k);
 
 #endif

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#define APART_NS 500000000 /* between two looks: who walks is half a metre farther */
+#define APART_NS 500000000 /* between two looks */
 #define OFF_M 0.05         /* what is off by more than this, */
 #define OFF_SIGMAS 6.0     /* and by more than this, is elsewhere */
 
@@ -141,23 +141,28 @@ static void leave_out(uint8_t *is_static, const rlf_surface *s, int32_t x0, int3
 void settled_mark(settled *t, const rlf_prediction *room, const rlf_surface *s,
                   const rlf_pose *T_world_camera, uint8_t *is_static)
 {
-    const settled_look *look = &t->look[0];
-    if (t->count > 0) {
-        const rlf_pose T_camera_world = rlf_pose_invert(T_world_camera);
-        const rlf_pose T_look_world = rlf_pose_invert(&look->T_world_camera);
-        const comparison c = {.t = t,
-                              .look = look,
-                              .now = s,
-                              .T_look_now = rlf_pose_mul(&T_look_world, T_world_camera),
-                              .T_now_look = rlf_pose_mul(&T_camera_world, &look->T_world_camera)};
-        for (int32_t y = CELL / 2; y < s->height; y += CELL) {
-            for (int32_t x = CELL / 2; x < s->width; x += CELL) {
-                const int32_t i = y * s->width + x;
-                const rlf_vec3 q = rlf_surface_point(s, i);
-                if (q.z > 0.0 && is_static[i] != 0 && !is_on_room(t, room, q) &&
-                    !is_settled(&c, q)) {
-                    leave_out(is_static, s, x - CELL / 2, y - CELL / 2);
-                }
+    const rlf_pose T_camera_world = rlf_pose_invert(T_world_camera);
+    comparison looks[2];
+    for (int32_t k = 0; k < t->count; k++) {
+        const rlf_pose T_look_world = rlf_pose_invert(&t->look[k].T_world_camera);
+        looks[k] =
+            (comparison){.t = t,
+                         .look = &t->look[k],
+                         .now = s,
+                         .T_look_now = rlf_pose_mul(&T_look_world, T_world_camera),
+                         .T_now_look = rlf_pose_mul(&T_camera_world, &t->look[k].T_world_camera)};
+    }
+    for (int32_t y = CELL / 2; y < s->height; y += CELL) {
+        for (int32_t x = CELL / 2; x < s->width; x += CELL) {
+            const int32_t i = y * s->width + x;
+            const rlf_vec3 q = rlf_surface_point(s, i);
+            const bool is_sure = !(q.z > 0.0) || is_static[i] == 0 || is_on_room(t, room, q);
+            bool agree = true;
+            for (int32_t k = 0; k < t->count && !is_sure && agree; k++) {
+                agree = is_settled(&looks[k], q);
+            }
+            if (!agree) {
+                leave_out(is_static, s, x - CELL / 2, y - CELL / 2);
             }
         }
     }

@@ -23,8 +23,8 @@ typedef struct settled {
 /* Close what was opened, also after an error. */
 rlf_result settled_open(settled *t, const rlf_camera *camera, const rlf_depth_noise *noise);
 /* Takes 4 x 4 pixels out of `is_static` that are not on the known room and were seen to be free
- * half a second to a second ago, or stand behind something that has left since: who walks is
- * nowhere for so long. Then the frame is one to compare with. `room` is the prediction at its pose;
+ * within the last second, or stand behind something that has left since: who walks is nowhere for
+ * so long. Then the frame may become one to compare with. `room` is the prediction at its pose;
  * NULL = nothing is known. */
 void settled_mark(settled *t, const rlf_prediction *room, const rlf_surface *surface,
                   const rlf_pose *T_world_camera, uint8_t *is_static);
