@@ -7,6 +7,7 @@
 /* Tukey's limit for 95 % efficiency, and the deviation of a median of absolute values. */
 #define TUKEY 4.685
 #define MEDIAN_TO_SIGMA 1.4826
+#define LEAST_SIGMA 0.1  /* of the noise: no map is better, also of a sensor without noise */
 #define LEAST_POINTS 200 /* at the finest level */
 /* Share of the whole information: a thirtieth of the least that a direction must have, so that it
  * costs the determined ones one thirtieth of a step. */
@@ -82,12 +83,14 @@ static void solve(const track_sums *sums, const track_ways *ways, double least, 
 }
 
 /* Whether a motion is within what the pose may be off: then the camera has not moved. */
-static bool rests(const track_ways *ways, const rlf_pose *T)
+static bool rests(const track_ways *found, const rlf_pose *T)
 {
+    track_ways w = *found;
     double moved[6];
+    w.sigma = rlf_max(w.sigma, LEAST_SIGMA);
     motion_of(T, moved);
     for (int k = 0; k < 6; k++) {
-        const double way = track_along(ways, k, moved), error = track_error(ways, k);
+        const double way = track_along(&w, k, moved), error = track_error(&w, k);
         if (way > error || way < -error) {
             return false;
         }

@@ -250,7 +250,7 @@ track_sums track_sums_of(const track_points *points, int32_t stride,
                          const track_gate *gate)
 {
     const view c = view_of(prediction, T, gate);
-    track_sums out = {.stride = stride};
+    track_sums out = {.tried = 0};
     double sum[TERMS][LANES] = {{0}}, total[TERMS] = {0};
     for (int32_t row = 0; row < points->height; row += stride) {
         lane_sums part = {.of = {{0}}};

@@ -21,7 +21,6 @@ static inline double track_entry(const double a[21], int row, int column)
 
 /* Sums over points. */
 typedef struct track_sums {
-    int32_t stride;
     track_equations depth, grey;
     double information; /* sum of the weights */
     double squared;     /* of weighted residuals over their deviation */

@@ -5,11 +5,10 @@
 
 #include <string.h>
 
-#define SHARED 8.0      /* 64 points in a square share an error: a mean is so many times worse */
-#define LEAST_SIGMA 0.1 /* of the noise: nobody's map is better */
-#define NEEDED_M                                                                                   \
-    0.0015 /* a quarter of a voxel: where depth is that good, brightness says nothing;             \
-              where it is twice as bad, all that it can */
+#define SHARED 8.0 /* 64 points in a square share an error: a mean is so many times worse */
+/* Where depth is that good (a quarter of a voxel) brightness says nothing; where it is twice as
+ * bad, all that it can. So it helps at the coarse level, of fewer points, to come near. */
+#define NEEDED_M 0.0015
 
 enum { EVERY = 4 }; /* point along rows and columns tells where they lie */
 
@@ -39,8 +38,7 @@ double track_along(const track_ways *ways, int k, const double motion[6])
 
 double track_error(const track_ways *ways, int k)
 {
-    return ways->shared * rlf_max(ways->sigma, LEAST_SIGMA) /
-           sqrt(rlf_max(ways->information[k], 1e-12));
+    return SHARED * ways->sigma / sqrt(rlf_max(ways->information[k], 1e-12));
 }
 
 /* The information about two motions, and what is said of one. */
@@ -84,9 +82,7 @@ static void part(track_ways *w, double a[6][6])
 /* Depth alone. */
 static track_ways depth_ways(const track_sums *sums, double reach)
 {
-    track_ways w = {.reach = reach,
-                    .sigma = sqrt(sums->squared / rlf_max(sums->weight, 1e-12)),
-                    .shared = SHARED / sums->stride};
+    track_ways w = {.reach = reach, .sigma = sqrt(sums->squared / rlf_max(sums->weight, 1e-12))};
     double a[6][6];
     for (int k = 0; k < 6; k++) {
         w.way[k][k] = k < 3 ? 1.0 / reach : 1.0;

@@ -13,7 +13,6 @@ typedef struct track_ways {
     double information[6]; /* about each, m^-2; in no order */
     double pull[6];        /* the right side along each: pull / information is how far to go */
     double sigma;          /* of what was measured, in expected deviations */
-    double shared;         /* so many times worse than of its own errors a mean is */
     bool asks_grey;        /* depth leaves a way open to brightness */
 } track_ways;
 
