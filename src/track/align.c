@@ -16,9 +16,10 @@
 /* Every so many points, and so many rounds. */
 typedef struct level {
     int32_t stride, rounds;
+    bool asks_grey; /* at first depth comes as near as it can: that tells what it leaves open */
 } level;
 
-static const level levels[] = {{2, 8}, {1, 5}};
+static const level levels[] = {{2, 3, false}, {2, 6, true}, {1, 5, true}};
 #define LEVELS ((int)(sizeof(levels) / sizeof(levels[0])))
 
 typedef struct align_job {
@@ -28,6 +29,7 @@ typedef struct align_job {
     rlf_pose T;
     track_gate gate;
     double reach; /* metres */
+    double sigma; /* of depth, in expected deviations: the least so far */
 } align_job;
 
 static void fill_points(void *context, int32_t begin, int32_t end, int32_t worker)
@@ -83,14 +85,12 @@ static void solve(const track_sums *sums, const track_ways *ways, double least, 
 }
 
 /* Whether a motion is within what the pose may be off: then the camera has not moved. */
-static bool rests(const track_ways *found, const rlf_pose *T)
+static bool rests(const track_ways *ways, const rlf_pose *T)
 {
-    track_ways w = *found;
     double moved[6];
-    w.sigma = rlf_max(w.sigma, LEAST_SIGMA);
     motion_of(T, moved);
     for (int k = 0; k < 6; k++) {
-        const double way = track_along(&w, k, moved), error = track_error(&w, k);
+        const double way = track_along(ways, k, moved), error = track_error(ways, k);
         if (way > error || way < -error) {
             return false;
         }
@@ -123,6 +123,13 @@ static track_sums sums_of(const align_job *job, const level *l)
     return track_sums_of(&job->tracker->points, l->stride, job->prediction, &job->T, &job->gate);
 }
 
+/* By the best fit of depth so far: brightness that pulls depth off must not open it further. */
+static track_ways ways_of(align_job *job, const track_sums *sums)
+{
+    job->sigma = rlf_min(job->sigma, sqrt(sums->squared / rlf_max(sums->weight, 1e-12)));
+    return track_ways_of(sums, job->reach, rlf_max(job->sigma, LEAST_SIGMA));
+}
+
 /* Rounds of one level. */
 static bool align_level(align_job *job, const level *l, double least, track_sums *sums)
 {
@@ -132,14 +139,15 @@ static bool align_level(align_job *job, const level *l, double least, track_sums
             return false;
         }
         double x[6];
-        const track_ways ways = track_ways_of(sums, job->reach);
+        const track_ways ways = ways_of(job, sums);
         solve(sums, &ways, least, &job->T, x);
         if (!move(&job->T, x)) {
             return false;
         }
-        const bool is_weighed = job->gate.asks_grey || !ways.asks_grey;
+        const bool asks_grey = l->asks_grey && ways.asks_grey;
+        const bool is_weighed = job->gate.asks_grey || !asks_grey;
         limit(&job->gate, sums);
-        job->gate.asks_grey = job->gate.asks_grey || ways.asks_grey;
+        job->gate.asks_grey = job->gate.asks_grey || asks_grey;
         const double small = 1e-5; /* radians, metres */
         if (is_weighed && x[0] * x[0] + x[1] * x[1] + x[2] * x[2] < small * small &&
             x[3] * x[3] + x[4] * x[4] + x[5] * x[5] < small * small) {
@@ -162,7 +170,7 @@ static void judge(const rlf_tracker *t, const track_sums *sums, const track_ways
     out->constraint = rlf_max(0.0, ways->information[weakest] / sums->information);
     out->weak_way = rlf_rotate(prediction->T_world_camera.q, way);
     out->overlap = sums->tried > 0 ? (double)sums->matched / sums->tried : 0.0;
-    out->rms_sigma = ways->sigma;
+    out->rms_sigma = sqrt(sums->squared / rlf_max(sums->weight, 1e-12));
     out->point_count = sums->tried;
     out->health = out->overlap < t->def.least_overlap || sums->matched < LEAST_POINTS
                       ? RLF_TRACK_LOST
@@ -195,6 +203,7 @@ rlf_result rlf_tracker_align(rlf_tracker *tracker, const rlf_track_view *view,
     job.gate = (track_gate){.metres = tracker->def.gate_m, .cut = 1e9};
     *out = (rlf_track_result){.T_world_camera = *start, .weak_way = {0, 0, 1}};
     track_sums sums = {.tried = 0};
+    job.sigma = 1e9;
     job.reach = track_reach_of(&tracker->points);
     sums = sums_of(&job, &levels[0]); /* one that is far off pulls in no round */
     limit(&job.gate, &sums);
@@ -203,7 +212,7 @@ rlf_result rlf_tracker_align(rlf_tracker *tracker, const rlf_track_view *view,
             return RLF_OK;
         }
     }
-    const track_ways ways = track_ways_of(&sums, job.reach);
+    const track_ways ways = ways_of(&job, &sums);
     judge(tracker, &sums, &ways, prediction, out);
     if (out->health == RLF_TRACK_LOST) {
         return RLF_OK;

@@ -7,7 +7,7 @@
 
 #define SHARED 8.0 /* 64 points in a square share an error: a mean is so many times worse */
 /* Where depth is that good (a quarter of a voxel) brightness says nothing; where it is twice as
- * bad, all that it can. So it helps at the coarse level, of fewer points, to come near. */
+ * bad, all that it can. */
 #define NEEDED_M 0.0015
 
 enum { EVERY = 4 }; /* point along rows and columns tells where they lie */
@@ -80,9 +80,9 @@ static void part(track_ways *w, double a[6][6])
 }
 
 /* Depth alone. */
-static track_ways depth_ways(const track_sums *sums, double reach)
+static track_ways depth_ways(const track_sums *sums, double reach, double sigma)
 {
-    track_ways w = {.reach = reach, .sigma = sqrt(sums->squared / rlf_max(sums->weight, 1e-12))};
+    track_ways w = {.reach = reach, .sigma = sigma};
     double a[6][6];
     for (int k = 0; k < 6; k++) {
         w.way[k][k] = k < 3 ? 1.0 / reach : 1.0;
@@ -95,9 +95,9 @@ static track_ways depth_ways(const track_sums *sums, double reach)
     return w;
 }
 
-track_ways track_ways_of(const track_sums *sums, double reach)
+track_ways track_ways_of(const track_sums *sums, double reach, double sigma)
 {
-    track_ways w = depth_ways(sums, reach);
+    track_ways w = depth_ways(sums, reach, sigma);
     double open[6], a[6][6] = {{0}};
     for (int k = 0; k < 6; k++) {
         open[k] = rlf_clamp(track_error(&w, k) / NEEDED_M - 1.0, 0.0, 1.0);

@@ -18,8 +18,9 @@ typedef struct track_ways {
 
 /* How far the points are away, RMS, metres; > 0. */
 double track_reach_of(const track_points *points);
-/* Brightness says something only of ways that depth leaves open. */
-track_ways track_ways_of(const track_sums *sums, double reach);
+/* Brightness says something only of ways that depth leaves open. sigma: of depth's measurements, in
+ * expected deviations. */
+track_ways track_ways_of(const track_sums *sums, double reach, double sigma);
 /* The component of a motion along a way, metres. */
 double track_along(const track_ways *ways, int k, const double motion[6]);
 /* Expected error along a way, metres. */
