@@ -30,7 +30,7 @@ extern "C" {
 /* How far a pose can be trusted. */
 typedef enum rlf_track_health {
     RLF_TRACK_LOST = 0, /* too little of the frame lies on the prediction: the pose is the guess */
-    RLF_TRACK_WEAK = 1, /* a direction is not determined: there the pose is the guess's */
+    RLF_TRACK_WEAK = 1, /* a direction is not determined: there the pose is the prediction's */
     RLF_TRACK_GOOD = 2
 } rlf_track_health;
 
@@ -46,7 +46,7 @@ typedef struct rlf_tracker_def {
     double least_overlap;    /* share of the frame's points that must lie on the prediction, 0..1;
                                 default 0.3 */
     double least_constraint; /* least share of the points' information that a direction must have;
-                                below it the direction is weak; default 0.003 */
+                                below it the direction is weak; default 0.001 */
     int32_t keyframe_max;    /* views that are remembered for rlf_tracker_recall; default 256 */
     rlf_pool *pool;          /* borrowed; NULL = one thread */
 } rlf_tracker_def;

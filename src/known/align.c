@@ -29,7 +29,7 @@ double known_spread(const rlf_vec3 *points, int32_t count)
 
 bool known_is_line(const rlf_vec3 *points, int32_t count)
 {
-    double a[4][4] = {{0}}, values[4], vectors[4][4];
+    double a[6][6] = {{0}}, values[6], vectors[6][6];
     rlf_vec3 centre = centre_of(points, count);
     for (int32_t i = 0; i < count; i++) {
         rlf_vec3 v = rlf_sub(points[i], centre);
@@ -59,14 +59,14 @@ static rlf_quat rotation_of(const rlf_vec3 *model, const rlf_vec3 *world, int32_
     }
     double trace = s[0][0] + s[1][1] + s[2][2];
     const double d[3] = {s[1][2] - s[2][1], s[2][0] - s[0][2], s[0][1] - s[1][0]};
-    double n[4][4] = {{trace, d[0], d[1], d[2]}};
+    double n[6][6] = {{trace, d[0], d[1], d[2]}};
     for (int32_t i = 0; i < 3; i++) {
         n[i + 1][0] = d[i];
         for (int32_t k = 0; k < 3; k++) {
             n[i + 1][k + 1] = s[i][k] + s[k][i] - (i == k ? trace : 0.0);
         }
     }
-    double values[4], vectors[4][4];
+    double values[6], vectors[6][6];
     math_eigen(n, 4, values, vectors);
     int32_t best = 0;
     for (int32_t i = 1; i < 4; i++) {

@@ -6,7 +6,8 @@
 #include <string.h>
 
 enum {
-    CARVE_FRAMES = 8, /* in which every block is asked once whether it is seen through */
+    CARVE_FRAMES = 8, /* in which every block is asked once whether it is seen through; who fuses
+                         into all blocks asks all of them in each */
     GRAIN = 32        /* blocks */
 };
 
@@ -99,8 +100,9 @@ static void choose_carved(fuse_job *job)
     const map_volume *v = &map->volume;
     const int32_t budget =
         map->def.blocks_per_frame > 0 ? map->def.blocks_per_frame / 4 + 1 : v->capacity;
-    const int32_t share = v->high / CARVE_FRAMES + 1;
-    int32_t cursor = map->carve_cursor < v->high ? map->carve_cursor : 0;
+    const bool has_time = map->def.blocks_per_frame == 0;
+    const int32_t share = has_time ? v->high : v->high / CARVE_FRAMES + 1;
+    int32_t cursor = !has_time && map->carve_cursor < v->high ? map->carve_cursor : 0;
     int32_t end = cursor + share < v->high ? cursor + share : v->high;
     const int32_t most = map->chosen_count + budget;
     for (; cursor < end && map->chosen_count < most; cursor++) {

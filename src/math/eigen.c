@@ -12,7 +12,7 @@ static double size_of(double x)
 }
 
 /* Turns rows and columns p and q until they do not mix. */
-static void rotate(double a[4][4], int32_t n, int32_t p, int32_t q, double vectors[4][4])
+static void rotate(double a[6][6], int32_t n, int32_t p, int32_t q, double vectors[6][6])
 {
     double theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
     double t = (theta < 0.0 ? -1.0 : 1.0) / (size_of(theta) + sqrt(theta * theta + 1.0));
@@ -35,7 +35,7 @@ static void rotate(double a[4][4], int32_t n, int32_t p, int32_t q, double vecto
 }
 
 /* One rotation per pair that still mixes; false when none does. */
-static bool sweep(double a[4][4], int32_t n, double vectors[4][4])
+static bool sweep(double a[6][6], int32_t n, double vectors[6][6])
 {
     bool has_turned = false;
     for (int32_t p = 0; p < n; p++) {
@@ -49,7 +49,7 @@ static bool sweep(double a[4][4], int32_t n, double vectors[4][4])
     return has_turned;
 }
 
-void math_eigen(double a[4][4], int32_t n, double values[4], double vectors[4][4])
+void math_eigen(double a[6][6], int32_t n, double values[6], double vectors[6][6])
 {
     for (int32_t i = 0; i < n; i++) {
         for (int32_t k = 0; k < n; k++) {

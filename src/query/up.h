@@ -29,7 +29,7 @@ int32_t rlf_up_axes(const rlf_up_samples *samples, rlf_vec3 axes[RLF_UP_AXES]);
 
 /* Turns *axis to the eigenvector of `a`, which is destroyed, with the least value; returns how much
  * less that is than the next. */
-double rlf_up_least(double a[4][4], rlf_vec3 *axis);
+double rlf_up_least(double a[6][6], rlf_vec3 *axis);
 
 /* up_level.c: turns `up` so that it stands on floors and tables. */
 rlf_vec3 rlf_up_level(const rlf_surface *surface, rlf_vec3 up);

@@ -14,7 +14,7 @@ static const double across_cos[2] = {0.70710678, RLF_UP_ACROSS};
 static const double sure_share = 0.01; /* a direction must beat the next by this share of normals */
 
 /* Of n n^T of the normals across, minus of those along. */
-static void sum_normals(const rlf_up_samples *samples, rlf_vec3 axis, int32_t angle, double a[4][4])
+static void sum_normals(const rlf_up_samples *samples, rlf_vec3 axis, int32_t angle, double a[6][6])
 {
     for (int32_t i = 0; i < samples->count; i++) {
         rlf_vec3 n = samples->normal[i];
@@ -31,9 +31,9 @@ static void sum_normals(const rlf_up_samples *samples, rlf_vec3 axis, int32_t an
     }
 }
 
-double rlf_up_least(double a[4][4], rlf_vec3 *axis)
+double rlf_up_least(double a[6][6], rlf_vec3 *axis)
 {
-    double values[4], vectors[4][4];
+    double values[6], vectors[6][6];
     math_eigen(a, 3, values, vectors);
     int32_t best = values[1] < values[0] ? 1 : 0;
     best = values[2] < values[best] ? 2 : best;
@@ -47,7 +47,7 @@ double rlf_up_least(double a[4][4], rlf_vec3 *axis)
  * sines to those along it. False when another direction does nearly as well. */
 static bool improve(const rlf_up_samples *samples, int32_t angle, rlf_vec3 *axis)
 {
-    double a[4][4] = {{0}};
+    double a[6][6] = {{0}};
     sum_normals(samples, *axis, angle, a);
     return rlf_up_least(a, axis) > sure_share * samples->count;
 }

@@ -6,7 +6,7 @@ enum { STEP = 4 }; /* pixels between samples, both ways */
 
 static const double sure_share = 0.03; /* of the squares: the next direction must be worse by it */
 
-static void add_square(double a[4][4], rlf_vec3 d, double weight)
+static void add_square(double a[6][6], rlf_vec3 d, double weight)
 {
     const double v[3] = {d.x, d.y, d.z};
     for (int32_t k = 0; k < 9; k++) {
@@ -23,7 +23,7 @@ static bool is_floor(const rlf_surface *s, int32_t i, rlf_vec3 up)
 }
 
 /* Adds what lies between two floor pixels, weighed by how exact depth is there. */
-static double add_chord(double a[4][4], const rlf_surface *s, int32_t i, int32_t k, rlf_vec3 up,
+static double add_chord(double a[6][6], const rlf_surface *s, int32_t i, int32_t k, rlf_vec3 up,
                         double most_sin)
 {
     rlf_vec3 d = rlf_sub(rlf_surface_point(s, k), rlf_surface_point(s, i));
@@ -37,7 +37,7 @@ static double add_chord(double a[4][4], const rlf_surface *s, int32_t i, int32_t
 }
 
 /* Chords of `length` pixels to the right and down from every floor pixel; returns their weight. */
-static double add_chords(double a[4][4], const rlf_surface *s, int32_t length, rlf_vec3 up,
+static double add_chords(double a[6][6], const rlf_surface *s, int32_t length, rlf_vec3 up,
                          double most_sin)
 {
     double weight = 0.0;
@@ -58,7 +58,7 @@ rlf_vec3 rlf_up_level(const rlf_surface *s, rlf_vec3 up)
 {
     double most_sin = 0.14;
     for (int32_t round = 0; round < 3; round++, most_sin *= 0.6) {
-        double a[4][4] = {{0}};
+        double a[6][6] = {{0}};
         double weight = add_chords(a, s, s->width / 10, up, most_sin);
         weight += add_chords(a, s, s->width / 40, up, most_sin);
         rlf_vec3 next = up;

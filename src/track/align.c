@@ -1,26 +1,25 @@
 /* Coarse to fine alignment of a frame's points with a prediction. */
-#include "math/solve_six.h"
-#include "track/constraint.h"
 #include "track/tracker.h"
+#include "track/ways.h"
+
+#include <string.h>
 
 /* Tukey's limit for 95 % efficiency, and the deviation of a median of absolute values. */
 #define TUKEY 4.685
 #define MEDIAN_TO_SIGMA 1.4826
+#define LEAST_SIGMA 0.1  /* of the noise: no map is better, also of a sensor without noise */
 #define LEAST_POINTS 200 /* at the finest level */
-/* Shares of the whole information: a direction with less than the first needs all the help that
- * brightness gives; one with more than the second none: blurred by the voxels, it would disturb. */
-#define GREY_WHOLE 0.01
-#define GREY_NONE 0.02
 /* Share of the whole information: a thirtieth of the least that a direction must have, so that it
  * costs the determined ones one thirtieth of a step. */
-#define DAMPING 1e-4
+#define DAMPING 3e-5
 
 /* Every so many points, and so many rounds. */
 typedef struct level {
     int32_t stride, rounds;
+    bool asks_grey; /* at first depth comes as near as it can: that tells what it leaves open */
 } level;
 
-static const level levels[] = {{2, 8}, {1, 5}};
+static const level levels[] = {{2, 3, false}, {2, 6, true}, {1, 5, true}};
 #define LEVELS ((int)(sizeof(levels) / sizeof(levels[0])))
 
 typedef struct align_job {
@@ -29,6 +28,8 @@ typedef struct align_job {
     const rlf_prediction *prediction;
     rlf_pose T;
     track_gate gate;
+    double reach; /* metres */
+    double sigma; /* of depth, in expected deviations: the least so far */
 } align_job;
 
 static void fill_points(void *context, int32_t begin, int32_t end, int32_t worker)
@@ -54,39 +55,47 @@ static double median_of(const track_sums *sums)
     return (double)TRACK_BINS / TRACK_BINS_PER_SIGMA;
 }
 
-/* How much brightness counts, 0..1: where depth leaves a direction undetermined. */
-static double grey_weight(const track_constraint *constraint)
+/* Rotation vector and translation of a pose. */
+static void motion_of(const rlf_pose *T, double x[6])
 {
-    const double *s = constraint->share;
-    const double share = rlf_min(rlf_min(s[0], s[1]), s[2]);
-    return rlf_clamp((GREY_NONE - share) / (GREY_NONE - GREY_WHOLE), 0.0, 1.0);
+    const double sign = T->q.w < 0.0 ? -1.0 : 1.0;
+    const rlf_vec3 axis = {sign * T->q.x, sign * T->q.y, sign * T->q.z};
+    const double half = rlf_length(axis);
+    const double scale = half > 1e-9 ? 2.0 * rlf_atan2(half, sign * T->q.w) / half : 2.0;
+    const double all[6] = {scale * axis.x, scale * axis.y, scale * axis.z, T->p.x, T->p.y, T->p.z};
+    memcpy(x, all, sizeof(all));
 }
 
-/* Solves for the small motion, without its part along ways that are not determined. */
-static void solve(const track_sums *sums, const track_constraint *constraint, double least,
+/* The next small motion: along a way that is not determined back to where the prediction was. */
+static void solve(const track_sums *sums, const track_ways *ways, double least, const rlf_pose *T,
                   double x[6])
 {
-    double a[6][6];
-    int k = 0;
-    for (int r = 0; r < 6; r++) {
-        for (int c = 0; c <= r; c++) {
-            a[r][c] = a[c][r] = sums->a[k++];
+    double moved[6];
+    motion_of(T, moved);
+    memset(x, 0, 6 * sizeof(double));
+    for (int k = 0; k < 6; k++) {
+        const double known = ways->information[k];
+        const double step = known < least * sums->information
+                                ? -track_along(ways, k, moved)
+                                : ways->pull[k] / (known + DAMPING * sums->information);
+        for (int r = 0; r < 6; r++) {
+            x[r] += step * ways->way[k][r];
         }
     }
-    const double turning = a[0][0] + a[1][1] + a[2][2];
-    for (int i = 0; i < 6; i++) { /* Levenberg: a way without information is not gone */
-        a[i][i] += DAMPING * (i < 3 ? turning : sums->information);
-    }
-    math_solve_six(a, sums->b, x);
-    rlf_vec3 t = rlf_vec3_make(x[3], x[4], x[5]);
-    for (int i = 0; i < 3; i++) {
-        if (constraint->share[i] < least) {
-            t = rlf_mad(t, constraint->way[i], -rlf_dot(t, constraint->way[i]));
+}
+
+/* Whether a motion is within what the pose may be off: then the camera has not moved. */
+static bool rests(const track_ways *ways, const rlf_pose *T)
+{
+    double moved[6];
+    motion_of(T, moved);
+    for (int k = 0; k < 6; k++) {
+        const double way = track_along(ways, k, moved), error = track_error(ways, k);
+        if (way > error || way < -error) {
+            return false;
         }
     }
-    x[3] = t.x;
-    x[4] = t.y;
-    x[5] = t.z;
+    return true;
 }
 
 static bool move(rlf_pose *T, const double x[6])
@@ -102,26 +111,43 @@ static bool move(rlf_pose *T, const double x[6])
     return true;
 }
 
-/* Rounds of one level; the limit for outliers follows the residuals. */
+/* The limit for outliers follows the residuals. */
+static void limit(track_gate *gate, const track_sums *sums)
+{
+    gate->cut = rlf_max(TUKEY * MEDIAN_TO_SIGMA * median_of(sums), 2.0);
+    gate->grey = sums->grey_weight > 0.0 ? sums->grey_residual / sums->grey_weight : 0.0;
+}
+
+static track_sums sums_of(const align_job *job, const level *l)
+{
+    return track_sums_of(&job->tracker->points, l->stride, job->prediction, &job->T, &job->gate);
+}
+
+/* By the best fit of depth so far: brightness that pulls depth off must not open it further. */
+static track_ways ways_of(align_job *job, const track_sums *sums)
+{
+    job->sigma = rlf_min(job->sigma, sqrt(sums->squared / rlf_max(sums->weight, 1e-12)));
+    return track_ways_of(sums, job->reach, rlf_max(job->sigma, LEAST_SIGMA));
+}
+
+/* Rounds of one level. */
 static bool align_level(align_job *job, const level *l, double least, track_sums *sums)
 {
     for (int32_t round = 0; round < l->rounds; round++) {
-        *sums =
-            track_sums_of(&job->tracker->points, l->stride, job->prediction, &job->T, &job->gate);
+        *sums = sums_of(job, l);
         if (sums->matched * l->stride * l->stride < LEAST_POINTS || !(sums->information > 0.0)) {
             return false;
         }
         double x[6];
-        const track_constraint constraint = track_constraint_of(sums);
-        const double grey = grey_weight(&constraint);
-        const bool is_weighed = grey <= job->gate.grey_weight;
-        solve(sums, &constraint, least, x);
+        const track_ways ways = ways_of(job, sums);
+        solve(sums, &ways, least, &job->T, x);
         if (!move(&job->T, x)) {
             return false;
         }
-        job->gate.cut = rlf_max(TUKEY * MEDIAN_TO_SIGMA * median_of(sums), 2.0);
-        job->gate.grey = sums->grey_weight > 0.0 ? sums->grey_residual / sums->grey_weight : 0.0;
-        job->gate.grey_weight = rlf_max(job->gate.grey_weight, grey);
+        const bool asks_grey = l->asks_grey && ways.asks_grey;
+        const bool is_weighed = job->gate.asks_grey || !asks_grey;
+        limit(&job->gate, sums);
+        job->gate.asks_grey = job->gate.asks_grey || asks_grey;
         const double small = 1e-5; /* radians, metres */
         if (is_weighed && x[0] * x[0] + x[1] * x[1] + x[2] * x[2] < small * small &&
             x[3] * x[3] + x[4] * x[4] + x[5] * x[5] < small * small) {
@@ -132,18 +158,19 @@ static bool align_level(align_job *job, const level *l, double least, track_sums
 }
 
 /* What the sums at the end say about the pose. */
-static void judge(const rlf_tracker *t, const track_sums *sums, const rlf_prediction *prediction,
-                  rlf_track_result *out)
+static void judge(const rlf_tracker *t, const track_sums *sums, const track_ways *ways,
+                  const rlf_prediction *prediction, rlf_track_result *out)
 {
-    const track_constraint constraint = track_constraint_of(sums);
     int weakest = 0;
-    for (int i = 1; i < 3; i++) {
-        weakest = constraint.share[i] < constraint.share[weakest] ? i : weakest;
+    for (int k = 1; k < 6; k++) {
+        weakest = ways->information[k] < ways->information[weakest] ? k : weakest;
     }
-    out->constraint = constraint.share[weakest];
-    out->weak_way = rlf_rotate(prediction->T_world_camera.q, constraint.way[weakest]);
+    const double *w = ways->way[weakest];
+    const rlf_vec3 way = rlf_normalize(rlf_vec3_make(w[3], w[4], w[5]));
+    out->constraint = rlf_max(0.0, ways->information[weakest] / sums->information);
+    out->weak_way = rlf_rotate(prediction->T_world_camera.q, way);
     out->overlap = sums->tried > 0 ? (double)sums->matched / sums->tried : 0.0;
-    out->rms_sigma = sums->weight > 0.0 ? sqrt(sums->squared / sums->weight) : 0.0;
+    out->rms_sigma = sqrt(sums->squared / rlf_max(sums->weight, 1e-12));
     out->point_count = sums->tried;
     out->health = out->overlap < t->def.least_overlap || sums->matched < LEAST_POINTS
                       ? RLF_TRACK_LOST
@@ -175,16 +202,25 @@ rlf_result rlf_tracker_align(rlf_tracker *tracker, const rlf_track_view *view,
     job.T = rlf_pose_mul(&T_camera_world, start);
     job.gate = (track_gate){.metres = tracker->def.gate_m, .cut = 1e9};
     *out = (rlf_track_result){.T_world_camera = *start, .weak_way = {0, 0, 1}};
-    track_sums sums = {.a = {0}};
+    track_sums sums = {.tried = 0};
+    job.sigma = 1e9;
+    job.reach = track_reach_of(&tracker->points);
+    sums = sums_of(&job, &levels[0]); /* one that is far off pulls in no round */
+    limit(&job.gate, &sums);
     for (int i = 0; i < LEVELS; i++) {
         if (!align_level(&job, &levels[i], tracker->def.least_constraint, &sums)) {
             return RLF_OK;
         }
     }
-    judge(tracker, &sums, prediction, out);
-    if (out->health != RLF_TRACK_LOST) {
-        out->T_world_camera = rlf_pose_mul(&prediction->T_world_camera, &job.T);
-        out->T_world_camera.q = rlf_quat_normalize(out->T_world_camera.q);
+    const track_ways ways = ways_of(&job, &sums);
+    judge(tracker, &sums, &ways, prediction, out);
+    if (out->health == RLF_TRACK_LOST) {
+        return RLF_OK;
+    }
+    out->T_world_camera = rlf_pose_mul(&prediction->T_world_camera, &job.T);
+    out->T_world_camera.q = rlf_quat_normalize(out->T_world_camera.q);
+    if (rests(&ways, &job.T)) {
+        out->T_world_camera = prediction->T_world_camera;
     }
     return RLF_OK;
 }

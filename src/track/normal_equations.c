@@ -14,13 +14,23 @@
 enum { LANES = 16 };
 
 /* Terms of the sums, in track_sums' order. */
-enum { A, B = 21, INFORMATION = 27, SQUARED, WEIGHT, GREY_RESIDUAL, GREY_WEIGHT, TERMS };
+enum {
+    EQUATIONS = 27, /* a, then b */
+    GREY = EQUATIONS,
+    INFORMATION = 2 * EQUATIONS,
+    SQUARED,
+    WEIGHT,
+    GREY_RESIDUAL,
+    GREY_WEIGHT,
+    TERMS
+};
 
 /* A rotation and a translation, the prediction's camera and the gate, in single precision. */
 typedef struct view {
     float m[3][3], t[3];
     float fx, fy, cx, cy;
-    float metres, cut, grey, grey_weight;
+    float metres, cut, grey;
+    bool asks_grey;
 } view;
 
 /* Sixteen points. */
@@ -52,12 +62,10 @@ static view view_of(const rlf_prediction *prediction, const rlf_pose *T, const t
                 .metres = (float)gate->metres,
                 .cut = (float)gate->cut,
                 .grey = (float)gate->grey,
-                .grey_weight = (float)gate->grey_weight};
+                .asks_grey =
+                    gate->asks_grey && prediction->grey != NULL && c->width >= 3 && c->height >= 3};
     for (int i = 0; i < 9; i++) {
         out.m[i / 3][i % 3] = (float)r.m[i / 3][i % 3];
-    }
-    if (prediction->grey == NULL || c->width < 3 || c->height < 3) {
-        out.grey_weight = 0.0f;
     }
     return out;
 }
@@ -132,7 +140,7 @@ RLF_KERNEL_PART void match(const view *c, const rlf_prediction *prediction, lane
  * moves. */
 RLF_KERNEL_PART void add_equations(const lanes *restrict l, const float n[3][LANES],
                                    const float *restrict residual, const float *restrict w,
-                                   lane_sums *restrict sums)
+                                   float (*restrict sums)[LANES])
 {
     float j[6][LANES];
     RLF_KERNEL_WHOLE
@@ -150,12 +158,12 @@ RLF_KERNEL_PART void add_equations(const lanes *restrict l, const float n[3][LAN
         RLF_KERNEL_WHOLE
         for (int32_t i = 0; i < LANES; i++) {
             wj[i] = w[i] * j[r][i];
-            sums->of[B + r][i] -= wj[i] * residual[i];
+            sums[21 + r][i] -= wj[i] * residual[i];
         }
         for (int32_t c = 0; c <= r; c++, k++) {
             RLF_KERNEL_WHOLE
             for (int32_t i = 0; i < LANES; i++) {
-                sums->of[A + k][i] += wj[i] * j[c][i];
+                sums[k][i] += wj[i] * j[c][i];
             }
         }
     }
@@ -175,7 +183,7 @@ RLF_KERNEL_PART void add_depth(const view *c, const lanes *restrict l, lane_sums
         sums->of[SQUARED][i] += robust * u * u;
         sums->of[WEIGHT][i] += robust;
     }
-    add_equations(l, (const float(*)[LANES])l->n, l->residual, w, sums);
+    add_equations(l, (const float(*)[LANES])l->n, l->residual, w, sums->of);
 }
 
 /* Brightness: the prediction at the moved point, against the frame's (Kerl et al. 2013). It tells
@@ -202,11 +210,11 @@ RLF_KERNEL_PART void add_grey(const view *c, const rlf_prediction *prediction,
         n[0][i] = gu * c->fx / l->z[i];
         n[1][i] = gv * c->fy / l->z[i];
         n[2][i] = -(n[0][i] * l->x[i] + n[1][i] * l->y[i]) / l->z[i];
-        w[i] = c->grey_weight * robust / (GREY_SIGMA * GREY_SIGMA);
+        w[i] = robust / (GREY_SIGMA * GREY_SIGMA);
         sums->of[GREY_RESIDUAL][i] += robust * (residual[i] + c->grey);
         sums->of[GREY_WEIGHT][i] += robust;
     }
-    add_equations(l, (const float(*)[LANES])n, residual, w, sums);
+    add_equations(l, (const float(*)[LANES])n, residual, w, sums->of + GREY);
 }
 
 /* One row, into single precision: it is short. */
@@ -227,7 +235,7 @@ RLF_KERNEL static void add_row(const view *c, const track_points *points, int32_
             counts->matched += l.is_matched[i];
             counts->bins[l.bin[i]] += l.is_matched[i];
         }
-        if (c->grey_weight > 0.0f) {
+        if (c->asks_grey) {
             float seen[LANES] = {0};
             for (int32_t i = 0; i < count; i++) {
                 seen[i] = (float)points->grey[first + (size_t)(i * stride)];
@@ -242,7 +250,7 @@ track_sums track_sums_of(const track_points *points, int32_t stride,
                          const track_gate *gate)
 {
     const view c = view_of(prediction, T, gate);
-    track_sums out = {.a = {0}};
+    track_sums out = {.tried = 0};
     double sum[TERMS][LANES] = {{0}}, total[TERMS] = {0};
     for (int32_t row = 0; row < points->height; row += stride) {
         lane_sums part = {.of = {{0}}};
@@ -254,8 +262,8 @@ track_sums track_sums_of(const track_points *points, int32_t stride,
     for (int32_t k = 0; k < TERMS * LANES; k++) {
         total[k / LANES] += sum[k / LANES][k % LANES];
     }
-    memcpy(out.a, total + A, sizeof(out.a));
-    memcpy(out.b, total + B, sizeof(out.b));
+    memcpy(&out.depth, total, sizeof(out.depth));
+    memcpy(&out.grey, total + GREY, sizeof(out.grey));
     out.information = total[INFORMATION];
     out.squared = total[SQUARED];
     out.weight = total[WEIGHT];

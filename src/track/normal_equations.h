@@ -8,9 +8,20 @@
 #define TRACK_BINS 128
 #define TRACK_BINS_PER_SIGMA 8
 
-/* Sums over points. Unknowns: rotation vector, then translation, in the prediction's frame. */
+/* What a kind of measurement says of rotation vector, then translation, in the prediction's frame:
+ * lower triangle by rows; right side. */
+typedef struct track_equations {
+    double a[21], b[6];
+} track_equations;
+
+static inline double track_entry(const double a[21], int row, int column)
+{
+    return row > column ? a[row * (row + 1) / 2 + column] : a[column * (column + 1) / 2 + row];
+}
+
+/* Sums over points. */
 typedef struct track_sums {
-    double a[21], b[6]; /* lower triangle by rows; right side */
+    track_equations depth, grey;
     double information; /* sum of the weights */
     double squared;     /* of weighted residuals over their deviation */
     double weight;      /* sum of the robust weights */
@@ -23,10 +34,10 @@ typedef struct track_sums {
 
 /* How points count. */
 typedef struct track_gate {
-    double metres;      /* farther ones do not count */
-    double cut;         /* Tukey's limit, in expected deviations */
-    double grey;        /* levels by which the prediction is brighter than the frame */
-    double grey_weight; /* 0..1: how much brightness counts */
+    double metres;  /* farther ones do not count */
+    double cut;     /* Tukey's limit, in expected deviations */
+    double grey;    /* levels by which the prediction is brighter than the frame */
+    bool asks_grey; /* whether brightness is summed */
 } track_gate;
 
 /* Of every `stride`-th point of every `stride`-th row. T: the frame's camera to the prediction's.

@@ -1,4 +1,4 @@
-/* Of each 4 x 4 depth pixels the first 2 x 2, to a point. */
+/* Of each 4 x 4 depth pixels the 2 x 2 in the middle, to a point. */
 #include "track/points.h"
 
 /* Four pixels lie on one surface when their depths are within so many sigma, or within the slope of
@@ -42,7 +42,7 @@ void track_points_row(const track_points *points, const rlf_rig *rig, const floa
     const double slope = SAME_SLOPE / rlf_min(rig->depth.fx, rig->depth.fy);
     for (int32_t column = 0; column < points->width; column++) {
         const size_t to = (size_t)row * (size_t)points->width + (size_t)column;
-        const size_t first = 4 * (size_t)row * width + 4 * (size_t)column;
+        const size_t first = (4 * (size_t)row + 1) * width + 4 * (size_t)column + 1;
         const size_t at[4] = {first, first + 1, first + width, first + width + 1};
         const block b = read_block(rig, view, at);
         points->z[to] = 0.0f;
@@ -56,11 +56,11 @@ void track_points_row(const track_points *points, const rlf_rig *rig, const floa
         }
         double x = 0.0, y = 0.0;
         for (int k = 0; k < 4; k++) {
-            x += 0.25 * (double)ray_x[at[k]];
-            y += 0.25 * (double)ray_y[at[k]];
+            x += 0.25 * (double)ray_x[at[k]] * (double)view->depth[at[k]];
+            y += 0.25 * (double)ray_y[at[k]] * (double)view->depth[at[k]];
         }
-        points->x[to] = (float)(x * z);
-        points->y[to] = (float)(y * z);
+        points->x[to] = (float)x;
+        points->y[to] = (float)y;
         points->z[to] = (float)z;
         points->sigma[to] = (float)(0.5 * sigma);
         points->grey[to] = b.lit == 4 ? (uint8_t)(0.25 * b.grey + 0.5) : 0;

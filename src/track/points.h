@@ -12,7 +12,7 @@ typedef struct track_points {
     uint8_t *grey;    /* 0 = none */
 } track_points;
 
-/* Fills row `row` of the points from rows 4 row and 4 row + 1 of the view; ray_x, ray_y are the
+/* Fills row `row` of the points from rows 4 row + 1 and 4 row + 2 of the view; ray_x, ray_y are the
  * depth camera's tables. */
 void track_points_row(const track_points *points, const rlf_rig *rig, const float *ray_x,
                       const float *ray_y, const rlf_track_view *view, int32_t row);

@@ -18,7 +18,7 @@ rlf_tracker_def rlf_tracker_def_default(void)
         .cookie = RLF_DEF_COOKIE,
         .gate_m = 0.1,
         .least_overlap = 0.3,
-        .least_constraint = 0.003,
+        .least_constraint = 0.001,
         .keyframe_max = 256,
     };
     return def;
@@ -51,8 +51,8 @@ static rlf_result allocate(rlf_tracker *t)
 {
     const rlf_camera *camera = &t->def.rig.depth;
     const size_t pixels = (size_t)camera->width * (size_t)camera->height;
-    t->points.width = (camera->width / 2 + 1) / 2;
-    t->points.height = (camera->height / 2 + 1) / 2;
+    t->points.width = (camera->width + 1) / 4;
+    t->points.height = (camera->height + 1) / 4;
     const size_t points = (size_t)t->points.width * (size_t)t->points.height;
     t->ray_x = rlf_alloc_array(pixels, sizeof(float));
     t->ray_y = rlf_alloc_array(pixels, sizeof(float));

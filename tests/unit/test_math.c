@@ -114,7 +114,7 @@ static void eigenvectors_are_only_scaled(void **state)
     for (int m = 0; m < 4; m++) {
         const double *s = all[m];
         const double a[3][3] = {{s[0], s[1], s[2]}, {s[1], s[3], s[4]}, {s[2], s[4], s[5]}};
-        double work[4][4] = {{0.0}}, values[4], v[4][4];
+        double work[6][6] = {{0.0}}, values[6], v[6][6];
         for (int k = 0; k < 9; k++) {
             work[k / 3][k % 3] = a[k / 3][k % 3];
         }

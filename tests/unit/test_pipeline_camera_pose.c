@@ -34,6 +34,7 @@ typedef struct fixture {
     float depth[PIXELS], normal[3][PIXELS], ray_x[PIXELS], ray_y[PIXELS];
     uint8_t grey[PIXELS], rgba[4 * PIXELS];
     int64_t time_ns;
+    double walker; /* z of a plate before a window, which has no depth; 0 = there is no window */
 } fixture;
 
 static fixture f;
@@ -82,6 +83,17 @@ static rlf_vec3 normal_at(const box *b, rlf_vec3 p, rlf_vec3 way)
     return n;
 }
 
+/* The window is in the wall ahead; the plate fills its middle. */
+static void add_walker(int32_t i, rlf_vec3 from, rlf_vec3 way, rlf_vec3 seen)
+{
+    const rlf_vec3 p = rlf_mad(from, way, (f.walker - from.z) / way.z);
+    if (f.walker > 0.0 && fabs(seen.x) < 0.4 && seen.z > room.high.z - 0.01) {
+        f.depth[i] = fabs(p.x) < 0.2 && p.y > -0.5 && p.y < 0.3 ? (float)f.walker : 0.0f;
+        f.normal[0][i] = f.normal[1][i] = 0.0f;
+        f.normal[2][i] = -1.0f;
+    }
+}
+
 static void look(const rlf_pose *T)
 {
     for (int32_t i = 0; i < PIXELS; i++) {
@@ -101,6 +113,7 @@ static void look(const rlf_pose *T)
         f.normal[1][i] = (float)n.y;
         f.normal[2][i] = (float)n.z;
         f.grey[i] = patch(rlf_mad(p, way, -1e-6));
+        add_walker(i, T->p, way, p);
         memset(&f.rgba[4 * (ptrdiff_t)i], f.grey[i], 3);
         f.rgba[4 * (ptrdiff_t)i + 3] = 255;
     }
@@ -110,6 +123,7 @@ static void look(const rlf_pose *T)
 static rlf_track_health feed(void)
 {
     f.time_ns += FRAME_NS;
+    f.surface.time_ns = f.time_ns;
     assert_int_equal(camera_pose_find(&f.camera, f.map, &f.surface, f.grey, f.time_ns), RLF_OK);
     if (f.camera.may_fuse) {
         static uint8_t is_static[PIXELS];
@@ -132,8 +146,7 @@ static rlf_pose turned(double yaw)
                       rlf_quat_from_rotation_vector(rlf_vec3_make(0.0, yaw, 0.0))};
 }
 
-/* A map of what a slow turn to the right shows, and the camera at its end. */
-static void begin(void)
+static void open_room(void)
 {
     memset(&f, 0, sizeof(f));
     f.rig.depth = (rlf_camera){
@@ -145,14 +158,24 @@ static void begin(void)
         f.ray_x[i] = (float)((i % WIDTH - f.rig.depth.cx) / f.rig.depth.fx);
         f.ray_y[i] = (float)((i / WIDTH - f.rig.depth.cy) / f.rig.depth.fy);
     }
-    f.surface = (rlf_surface){
-        .width = WIDTH, .height = HEIGHT, .depth = f.depth, .ray_x = f.ray_x, .ray_y = f.ray_y};
+    f.surface = (rlf_surface){.width = WIDTH,
+                              .height = HEIGHT,
+                              .depth = f.depth,
+                              .ray_x = f.ray_x,
+                              .ray_y = f.ray_y,
+                              .camera = f.rig.depth};
     rlf_map_def def = rlf_map_def_default();
     def.rig = f.rig;
     def.voxel_m = 0.02;
     def.memory_mb = 64;
     assert_int_equal(rlf_map_create(&def, &f.map), RLF_OK);
     assert_int_equal(camera_pose_open(&f.camera, &f.rig, NULL), RLF_OK);
+}
+
+/* A map of what a slow turn to the right shows, and the camera at its end. */
+static void begin(void)
+{
+    open_room();
     for (int i = 0; i < LEARNED; i++) {
         const rlf_pose T = turned(0.02 * i);
         look(&T);
@@ -257,12 +280,49 @@ static void test_what_was_fused_before_the_loss_is_taken_back(void **state)
     end();
 }
 
+/* The same frame again and again: hard edges of brightness and what is fused meanwhile do not move
+ * the camera. */
+static void test_a_camera_at_rest_keeps_its_pose(void **state)
+{
+    const rlf_pose T = rlf_pose_identity();
+    (void)state;
+    open_room();
+    look(&T);
+    for (int k = 0; k < 100; k++) {
+        assert_int_equal(feed(), RLF_TRACK_GOOD);
+        assert_true(off(&T) < 1e-4);
+    }
+    end();
+}
+
+/* Who walks away before a window leaves nothing behind him. */
+static void test_who_walks_is_not_fused(void **state)
+{
+    const rlf_pose T = rlf_pose_identity();
+    (void)state;
+    open_room();
+    int32_t fused = 0;
+    for (int k = 0; k < 60; k++) {
+        f.walker = 0.9 + 0.025 * k;
+        look(&T);
+        assert_int_equal(feed(), RLF_TRACK_GOOD);
+    }
+    for (double z = 1.0; z < 2.4; z += 0.01) {
+        const rlf_vec3 p = {0.0, 0.0, z};
+        fused += rlf_map_sample(f.map, p).state == RLF_MAP_INSIDE;
+    }
+    assert_true(fused == 0);
+    end();
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_camera_that_was_blind_is_found_again),
         cmocka_unit_test(test_what_is_not_the_room_leaves_the_map_alone),
         cmocka_unit_test(test_what_was_fused_before_the_loss_is_taken_back),
+        cmocka_unit_test(test_a_camera_at_rest_keeps_its_pose),
+        cmocka_unit_test(test_who_walks_is_not_fused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -25,7 +25,8 @@ static const plane corner[] = {{{0, 0, -1}, -3.0}, {{-0.8, 0, -0.6}, -2.2}, {{0,
 typedef struct fixture {
     rlf_rig rig;
     float depth[PIXELS], seen[PIXELS], normal[3][PIXELS];
-    uint8_t is_static[PIXELS];
+    uint8_t is_static[PIXELS], grey[PIXELS], seen_grey[PIXELS];
+    bool has_grey;
     rlf_prediction prediction;
     rlf_tracker *tracker;
 } fixture;
@@ -82,14 +83,31 @@ static void begin(const plane *planes, int count, const rlf_pose *T)
     assert_int_equal(rlf_tracker_create(&def, &f.tracker), RLF_OK);
 }
 
-static rlf_track_result align(void)
+static rlf_track_result align_from(rlf_pose start)
 {
-    const rlf_track_view view = {f.seen, f.is_static, NULL};
-    const rlf_pose start = rlf_pose_identity();
+    const rlf_track_view view = {f.seen, f.is_static, f.has_grey ? f.seen_grey : NULL};
     rlf_track_result result;
     assert_int_equal(rlf_tracker_align(f.tracker, &view, &f.prediction, &start, &result), RLF_OK);
     assert_true(rlf_vec3_is_finite(result.T_world_camera.p));
     return result;
+}
+
+static rlf_track_result align(void)
+{
+    return align_from(rlf_pose_identity());
+}
+
+/* Waves of brightness; the frame's lie `right` pixels to the right of the prediction's. */
+static void paint(double right)
+{
+    for (int32_t i = 0; i < PIXELS; i++) {
+        const double x = i % WIDTH, y = i / WIDTH;
+        f.grey[i] = (uint8_t)(128.0 + 50.0 * rlf_sin(0.15 * x) + 40.0 * rlf_sin(0.2 * y));
+        f.seen_grey[i] =
+            (uint8_t)(128.0 + 50.0 * rlf_sin(0.15 * (x - right)) + 40.0 * rlf_sin(0.2 * y));
+    }
+    f.has_grey = true;
+    f.prediction.grey = f.grey;
 }
 
 static rlf_pose moved(void)
@@ -152,6 +170,56 @@ static void test_a_mover_does_not_pull(void **state)
         assert_true(rlf_length(rlf_sub(found.T_world_camera.p, T.p)) < 1e-3);
         rlf_tracker_destroy(&f.tracker);
     }
+}
+
+/* Where depth settles the pose brightness that says otherwise changes nothing; along a wall it is
+ * all that there is. */
+static void test_brightness_tells_what_depth_does_not(void **state)
+{
+    const rlf_pose T = moved(), here = rlf_pose_identity();
+    (void)state;
+    begin(corner, 3, &T);
+    const rlf_track_result alone = align();
+    paint(6.0);
+    const rlf_track_result found = align();
+    assert_true(rlf_length(rlf_sub(found.T_world_camera.p, alone.T_world_camera.p)) < 1e-4);
+    assert_true(turn_between(found.T_world_camera.q, alone.T_world_camera.q) < 0.01);
+    rlf_tracker_destroy(&f.tracker);
+    begin(corner, 1, &here);
+    paint(2.0);
+    const rlf_track_result slid = align();
+    assert_int_equal(slid.health, RLF_TRACK_GOOD);
+    assert_float_equal(slid.T_world_camera.p.x, -2.0 / 183.0 * 3.0, 2e-3);
+    assert_float_equal(slid.T_world_camera.p.z, 0.0, 1e-4);
+    rlf_tracker_destroy(&f.tracker);
+}
+
+/* Noise moves nothing: the pose is the prediction's, bit for bit. */
+static void test_a_camera_at_rest_stays(void **state)
+{
+    const rlf_pose here = rlf_pose_identity();
+    uint32_t hash = 1;
+    (void)state;
+    begin(corner, 3, &here);
+    for (int32_t i = 0; i < PIXELS; i++) {
+        hash = hash * 1664525u + 1013904223u;
+        f.seen[i] += 0.004f * ((float)(hash >> 8) * 0x1p-24f - 0.5f) * f.seen[i];
+    }
+    const rlf_track_result found = align();
+    assert_memory_equal(&found.T_world_camera, &here, sizeof(here));
+    rlf_tracker_destroy(&f.tracker);
+}
+
+/* A guess that nothing confirms is not believed: along a wall the camera stays where it was. */
+static void test_a_guess_along_a_wall_is_not_kept(void **state)
+{
+    const rlf_pose here = rlf_pose_identity(), guess = {{0.03, 0.0, 0.0}, rlf_quat_identity()};
+    (void)state;
+    begin(corner, 1, &here);
+    const rlf_track_result found = align_from(guess);
+    assert_int_equal(found.health, RLF_TRACK_WEAK);
+    assert_true(rlf_length(found.T_world_camera.p) < 1e-3);
+    rlf_tracker_destroy(&f.tracker);
 }
 
 static void test_nothing_seen_is_lost(void **state)
@@ -231,6 +299,9 @@ int main(void)
         cmocka_unit_test(test_a_corner_gives_the_pose),
         cmocka_unit_test(test_a_plane_alone_is_weak),
         cmocka_unit_test(test_a_mover_does_not_pull),
+        cmocka_unit_test(test_brightness_tells_what_depth_does_not),
+        cmocka_unit_test(test_a_camera_at_rest_stays),
+        cmocka_unit_test(test_a_guess_along_a_wall_is_not_kept),
         cmocka_unit_test(test_nothing_seen_is_lost),
         cmocka_unit_test(test_no_pose_is_refused),
         cmocka_unit_test(test_a_view_is_recalled),

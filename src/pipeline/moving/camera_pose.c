@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#define SMALLER 4
 #define STARTS 6            /* keyframes that are tried after a lost track */
 #define ROUNDS 2            /* of prediction and alignment for each */
 #define SURE_OVERLAP 0.5    /* after a lost track so much must lie on the room, ... */
@@ -22,22 +23,32 @@ rlf_result camera_pose_open(camera_pose *c, const rlf_rig *rig, rlf_pool *pool)
     rlf_camera camera = rig->depth;
     camera.distortion_model = RLF_DISTORTION_NONE;
     memset(camera.distortion, 0, sizeof(camera.distortion));
-    c->camera = rlf_camera_decimate(&camera, 4);
+    c->camera = rlf_camera_decimate(&camera, SMALLER);
+    c->camera.cx -= 0.5 * (SMALLER - 1) / SMALLER;
+    c->camera.cy -= 0.5 * (SMALLER - 1) / SMALLER;
     c->noise = rig->noise;
     const size_t pixels = (size_t)c->camera.width * (size_t)c->camera.height;
-    c->planes = rlf_alloc_array(4 * pixels, sizeof(float));
-    c->grey = rlf_alloc(pixels);
-    return c->planes != NULL && c->grey != NULL ? rlf_tracker_create(&def, &c->tracker)
-                                                : RLF_ERROR_MEMORY;
+    for (int i = 0; i < 2; i++) {
+        c->planes[i] = rlf_alloc_array(4 * pixels, sizeof(float));
+        c->grey[i] = rlf_alloc(pixels);
+        if (c->planes[i] == NULL || c->grey[i] == NULL) {
+            return RLF_ERROR_MEMORY;
+        }
+    }
+    const rlf_result result = settled_open(&c->settled, &c->camera, &rig->noise);
+    return result == RLF_OK ? rlf_tracker_create(&def, &c->tracker) : result;
 }
 
 void camera_pose_close(camera_pose *c)
 {
     rlf_tracker_destroy(&c->tracker);
-    rlf_free(c->planes);
-    rlf_free(c->grey);
-    c->planes = NULL;
-    c->grey = NULL;
+    settled_close(&c->settled);
+    for (int i = 0; i < 2; i++) {
+        rlf_free(c->planes[i]);
+        rlf_free(c->grey[i]);
+        c->planes[i] = NULL;
+        c->grey[i] = NULL;
+    }
 }
 
 rlf_result camera_pose_know(camera_pose *c, rlf_map *map)
@@ -98,15 +109,16 @@ rlf_result camera_pose_predict(camera_pose *c, rlf_map *map, const rlf_pose *T_w
         return result;
     }
     const size_t pixels = (size_t)c->camera.width * (size_t)c->camera.height;
+    const int at = c->has_reference && c->reference.depth == c->planes[0]; /* the other's stay */
     const float **from[4] = {&p->depth, &p->normal_x, &p->normal_y, &p->normal_z};
     for (size_t k = 0; k < 4; k++) {
-        float *to = c->planes + k * pixels;
+        float *to = c->planes[at] + k * pixels;
         memcpy(to, *from[k], pixels * sizeof(float));
         *from[k] = to;
     }
     if (p->grey != NULL) {
-        memcpy(c->grey, p->grey, pixels);
-        p->grey = c->grey;
+        memcpy(c->grey[at], p->grey, pixels);
+        p->grey = c->grey[at];
     }
     return RLF_OK;
 }
@@ -160,15 +172,11 @@ static void guard_map(camera_pose *c, rlf_map *map)
     c->may_fuse = is_good && c->proven >= PROOF_FRAMES;
 }
 
-void camera_pose_mark_static(const camera_pose *c, const rlf_surface *s, uint8_t *is_static)
+void camera_pose_mark_static(camera_pose *c, const rlf_surface *s, uint8_t *is_static)
 {
     const rlf_prediction *p = &c->prediction;
-    if (!c->has_prediction) { /* the first frame */
-        memset(is_static, 1, (size_t)s->width * (size_t)s->height);
-        return;
-    }
-    for (int32_t i = 0; i < s->width * s->height; i++) {
-        is_static[i] = 1;
+    memset(is_static, 1, (size_t)s->width * (size_t)s->height);
+    for (int32_t i = 0; c->has_prediction && i < s->width * s->height; i++) {
         if (!(s->depth[i] > 0.0f)) {
             continue;
         }
@@ -184,6 +192,22 @@ void camera_pose_mark_static(const camera_pose *c, const rlf_surface *s, uint8_t
             rlf_max(IN_FRONT_M, IN_FRONT_SIGMAS * rlf_depth_noise_sigma(&c->noise, q.z));
         is_static[i] = !(room > 0.0 && q.z < room - nearer);
     }
+    settled_mark(&c->settled, c->has_prediction ? p : NULL, s, &c->last.T_world_camera, is_static);
+}
+
+/* What the map shows from where the camera is; a new reference when it is elsewhere. */
+static rlf_result refer(camera_pose *c, rlf_map *map)
+{
+    const rlf_pose *now = &c->last.T_world_camera;
+    const bool is_lost = c->last.health == RLF_TRACK_LOST;
+    const bool rests = c->has_reference && !is_lost &&
+                       memcmp(now, &c->reference.T_world_camera, sizeof(*now)) == 0;
+    const rlf_result result = is_lost ? RLF_OK : camera_pose_predict(c, map, now);
+    if (!rests) {
+        c->has_reference = c->has_prediction;
+        c->reference = c->prediction;
+    }
+    return result;
 }
 
 rlf_result camera_pose_find(camera_pose *c, rlf_map *map, const rlf_surface *surface,
@@ -211,10 +235,10 @@ rlf_result camera_pose_find(camera_pose *c, rlf_map *map, const rlf_surface *sur
     const rlf_pose start = rlf_tracker_guess(c->tracker, time_ns);
     const bool was_lost =
         c->last.health == RLF_TRACK_LOST || time_ns - c->time_ns > GAP_NS || time_ns <= c->time_ns;
-    /* Against what the map showed from the frame before (Newcombe et al. 2011): one prediction is
+    /* Against what the map showed from a frame before (Newcombe et al. 2011): one prediction is
      * enough for a frame. */
-    rlf_result result = c->has_prediction && !was_lost
-                            ? align(c, &view, &c->prediction, &start, &c->last)
+    rlf_result result = c->has_reference && !was_lost
+                            ? align(c, &view, &c->reference, &start, &c->last)
                             : try_start(c, map, &view, &start, &c->last);
     c->time_ns = time_ns;
     if (result == RLF_OK && (was_lost || c->last.health == RLF_TRACK_LOST)) {
@@ -227,6 +251,5 @@ rlf_result camera_pose_find(camera_pose *c, rlf_map *map, const rlf_surface *sur
     c->lost_count += c->last.health == RLF_TRACK_LOST;
     guard_map(c, map);
     rlf_tracker_accept(c->tracker, &view, time_ns, &c->last);
-    return c->last.health != RLF_TRACK_LOST ? camera_pose_predict(c, map, &c->last.T_world_camera)
-                                            : RLF_OK;
+    return refer(c, map);
 }

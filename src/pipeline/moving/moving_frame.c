@@ -98,13 +98,15 @@ bool moving_give(void *context, const rlf_surface *seen, rlf_given_background *o
 /* ---- map ---- */
 
 /* Neither what stands in front, unless it has stood there for long, nor what is beside it, nor what
- * nobody saw. */
+ * nobody saw, nor what has come lately where the room behind is not known. */
 static void mark_static(moving *m, const rlf_surface *s)
 {
     const int32_t width = s->width, count = s->width * s->height;
     for (int32_t i = 0; i < count; i++) {
         m->is_static[i] = s->reason[i] == RLF_REASON_OK;
     }
+    settled_mark(&m->pose.settled, m->has_room ? &m->pose.prediction : NULL, s, &m->T_world_camera,
+                 m->is_static);
     if (s->foreground_count == 0) {
         return;
     }

@@ -90,7 +90,7 @@ static void add(patch *p, ptrdiff_t i)
 /* Least squares plane of the pixels so far. */
 static void fit(patch *p)
 {
-    double a[4][4] = {{0.0}}, values[4], vectors[4][4];
+    double a[6][6] = {{0.0}}, values[6], vectors[6][6];
     double n = p->count;
     for (int r = 0; r < 3; r++) {
         for (int c = 0; c < 3; c++) {

@@ -42,7 +42,7 @@ static bend_sums sums_of(const grid_patch *p, const patch_mean *mean)
  * mean products N with the normals: in S's own axes that is solved one by one. */
 static void solve(const bend_sums *sums, double spread[2][2], double out[2][2])
 {
-    double square[4][4] = {{0.0}}, size[4], axes[4][4], bend[2][2];
+    double square[6][6] = {{0.0}}, size[6], axes[6][6], bend[2][2];
     for (int32_t i = 0; i < 2; i++) {
         for (int32_t j = 0; j < 2; j++) {
             spread[i][j] = square[i][j] = sums->dd[i][j] / sums->weight;
@@ -70,7 +70,7 @@ static void solve(const bend_sums *sums, double spread[2][2], double out[2][2])
 void patch_correct_bulge(const grid_patch *p, patch_mean *mean)
 {
     double radius = p->job->body->shape.shape.radius, lift = 0.0;
-    double spread[2][2], bend[2][2], matrix[4][4] = {{0.0}}, curvature[4], ways[4][4];
+    double spread[2][2], bend[2][2], matrix[6][6] = {{0.0}}, curvature[6], ways[6][6];
     bend_sums sums = sums_of(p, mean);
     solve(&sums, spread, bend);
     for (int32_t k = 0; k < 4; k++) {
