@@ -6,6 +6,7 @@
  * unknowns of its twist (least squares with a weak prior). A region that is not rigid is fitted
  * cell by cell (motion/cells.c). What is not significant against the sensor's noise is exactly 0.
  */
+#include "surface/motion/keyframe.h"
 #include "surface/motion/motion.h"
 
 #include "math/solve_six.h"
@@ -343,8 +344,23 @@ static bool is_moving(const rlf_flow *job, const rlf_region *region, rlf_vec3 se
            (is_going_on || !is_rest_as_likely(&rest, out));
 }
 
+/* As its keyframe moves. */
+static bool keyframe_motion(const rlf_keyframe *key, rlf_region *region, rlf_twist *out)
+{
+    out->centre = rlf_add(key->centre, rlf_vec3_make(key->x[0], key->x[1], key->x[2]));
+    out->length = key->length;
+    memcpy(out->x, key->velocity, sizeof(out->x));
+    region->angular_velocity = rlf_twist_spin(out);
+    region->linear_velocity = rlf_twist_velocity(out, region->centroid);
+    return rlf_length(region->linear_velocity) > 0.0 || rlf_length(region->angular_velocity) > 0.0;
+}
+
 static bool region_motion(const rlf_flow *job, rlf_region *region, rlf_twist *out)
 {
+    const rlf_keyframe *key = keyframe_of_region(job->stage, job->now, region->label);
+    if (key != NULL) {
+        return keyframe_motion(key, region, out);
+    }
     rlf_vec3 seen = centroid_velocity(job, region);
     *out = start_from(region, rlf_vec3_make(0, 0, 0));
     if (!is_moving(job, region, seen, out)) {
@@ -456,6 +472,7 @@ void velocity_allocate(velocity_planes *state, rlf_arena *arena, const image_gri
     size_t n = (size_t)grid->count;
     state->seen = arena_take(arena, n, sizeof(float));
     state->cells = arena_take(arena, rlf_cell_capacity(grid), sizeof *state->cells);
+    state->keyframe = arena_take(arena, RLF_KEYFRAMES, sizeof *state->keyframe);
     arena_next_owner(arena);
     state->is_steady = arena_lend(arena, n, 1);
     state->is_contour = arena_lend(arena, n, 1);

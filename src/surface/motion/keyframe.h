@@ -1,0 +1,111 @@
+/* A thing as it looked when it was last at rest, and how it has moved since.
+ *
+ * Comparing each frame with the one before finds no motion that is less than the noise of one
+ * frame. Compared with a picture of rest the motion adds up: a thing that creeps is found as soon
+ * as it is somewhere else (Korn and Pauli 2015; Co-Fusion, Ruenz and Agapito 2017). */
+#ifndef RLF_SURFACE_MOTION_KEYFRAME_H
+#define RLF_SURFACE_MOTION_KEYFRAME_H
+
+#include "surface/stage.h"
+
+enum {
+    KEYFRAME_POINTS = 160, /* at most */
+    KEYFRAME_RIMS = 96,    /* at most */
+    KEYFRAME_RING = 12,    /* frames that a velocity comes from, at most */
+    KEYFRAME_REST = 8      /* frames at rest before it tells motion */
+};
+
+/* Of the surface, from the keyframe's centre, and how far off it is seen at rest. */
+typedef struct keyframe_point {
+    float p[3], n[3];
+    float bias; /* metres along the normal */
+} keyframe_point;
+
+/* Of the outline before something farther. */
+typedef struct keyframe_rim {
+    float p[3], n[3]; /* from the centre, of the pixel that is the window's middle */
+    float out[3];     /* unit, out of the thing, square to the ray */
+    float fill;       /* of a window about it at rest: pixels that show the thing */
+} keyframe_rim;
+
+typedef enum keyframe_state { KEYFRAME_NONE = 0, KEYFRAME_RESTS, KEYFRAME_MOVES } keyframe_state;
+
+/* A frame's pose: shift of the centre, metres, and rotation vector times the length. */
+typedef struct keyframe_pose {
+    double time_s, x[6];
+} keyframe_pose;
+
+typedef struct rlf_keyframe {
+    keyframe_state state;
+    int32_t thing; /* of the background, while it rests there; 0 = none */
+    int32_t label; /* of the region that shows it, while it moves; 0 = none */
+    rlf_rect rect; /* of its pixels, as it was taken */
+    int32_t size;  /* pixels, then */
+    rlf_vec3 centre;
+    double length; /* metres: of a turn about the centre it makes a shift */
+    keyframe_point point[KEYFRAME_POINTS];
+    keyframe_rim rim[KEYFRAME_RIMS];
+    int32_t point_count, rim_count;
+    int32_t rests;   /* frames in its means */
+    uint8_t moved;   /* a bit per frame, the newest lowest */
+    double x[6];     /* pose now */
+    double sigma[6]; /* of it */
+    keyframe_pose ring[KEYFRAME_RING];
+    int32_t ring_count;     /* the newest last */
+    double velocity[6];     /* of the pose, per second; 0 = not significant */
+    double told[3];         /* the way that it made before it was told */
+} rlf_keyframe;
+
+/* What a keyframe is taken of. */
+typedef struct keyframe_view {
+    const image_grid *grid;
+    const uint8_t *member; /* plane: `number` where the thing is */
+    uint8_t number;
+    const float *depth;
+    const float *const *normal;
+} keyframe_view;
+
+/* ---- keyframe.c ---- */
+/* False when too little of it is seen, or of its outline. */
+bool keyframe_take(const keyframe_view *view, const rlf_rect *rect, int32_t size,
+                   const rlf_kernel_noise *noise, rlf_keyframe *out);
+
+/* ---- register.c ---- */
+/* How a keyframe fits a frame. */
+typedef struct keyframe_fit {
+    double x[6];           /* the pose */
+    double a[6][6];        /* its information, lower triangle */
+    double b[6];
+    int32_t points, rims;             /* seen: neither hidden nor without depth */
+    int32_t agree, rims_agree;        /* of them */
+    int32_t hidden, rims_hidden;
+} keyframe_fit;
+
+typedef struct keyframe_frame {
+    const image_grid *grid;
+    const float *depth; /* as the sensor gave it */
+    rlf_kernel_noise noise;
+} keyframe_frame;
+
+/* Rows at the pose fit->x; with slack metres to spare. */
+void keyframe_look(const keyframe_frame *frame, const rlf_keyframe *key, double slack,
+                   keyframe_fit *fit);
+/* The pose that fits best, from fit->x on. */
+void keyframe_register(const keyframe_frame *frame, const rlf_keyframe *key, keyframe_fit *fit);
+/* Of the step that the rows of fit ask for: squares in units of its variance, 6 unknowns. */
+double keyframe_off(const keyframe_frame *frame, const rlf_keyframe *key, const keyframe_fit *fit,
+                    const double x[6], double sigma[6]);
+/* What a frame at rest shows goes into the means. */
+void keyframe_learn(const keyframe_frame *frame, rlf_keyframe *key);
+
+/* ---- follow.c ---- */
+void keyframes_reset(velocity_planes *state);
+/* All keyframes in a frame. `departed`: 1 of the background's things that move from now on. */
+void keyframes_follow(rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *departed);
+/* Keyframes of the background's things, which have just been found anew. */
+void keyframes_take_things(rlf_reconstruct *stage);
+/* The region's motion by its keyframe; NULL: it has none. */
+const rlf_keyframe *keyframe_of_region(const rlf_reconstruct *stage, const rlf_slot *slot,
+                                       int32_t label);
+
+#endif

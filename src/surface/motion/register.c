@@ -1,0 +1,260 @@
+/* The rigid motion of a keyframe into a frame: point-to-plane inside (Chen and Medioni 1991), along
+ * the normals of the outline at its edge (Harris 1990, "RAPID"), by Gauss and Newton. */
+#include "math/solve_six.h"
+#include "surface/motion/keyframe.h"
+#include "surface/motion/rim.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { PASSES = 7 };
+
+/* How well a window's fill places an outline, pixels: it runs along the pixels in the worst case.
+ */
+static const double rim_sigma_px = 0.4;
+/* Neighbouring pixels share noise, and windows share pixels: so many count as one. */
+static const double points_shared = 2.0, rims_shared = 3.0;
+/* A pose is no better than this, however many pixels tell it: errors that all of them share. */
+static const double shared_px = 0.15, shared_depth = 0.001;
+/* Prior of a pose: what nothing is seen of stays as it is, metres. */
+static const double loose_m = 0.05;
+/* Share of a frame's motion by which normals make it another. */
+static const double sigmas = 3.0;
+
+typedef struct placed {
+    const rlf_keyframe *key;
+    double r[3][3]; /* rotation */
+    rlf_vec3 centre;
+} placed;
+
+static placed place(const rlf_keyframe *key, const double x[6])
+{
+    placed out = {.key = key};
+    const double s = 1.0 / key->length;
+    const rlf_quat q =
+        rlf_quat_from_rotation_vector(rlf_vec3_make(s * x[3], s * x[4], s * x[5]));
+    for (int c = 0; c < 3; c++) {
+        const rlf_vec3 axis = {c == 0, c == 1, c == 2}, to = rlf_rotate(q, axis);
+        out.r[0][c] = to.x;
+        out.r[1][c] = to.y;
+        out.r[2][c] = to.z;
+    }
+    out.centre = rlf_add(key->centre, rlf_vec3_make(x[0], x[1], x[2]));
+    return out;
+}
+
+static rlf_vec3 turned(const placed *at, const float v[3])
+{
+    const double x = v[0], y = v[1], z = v[2];
+    return rlf_vec3_make(at->r[0][0] * x + at->r[0][1] * y + at->r[0][2] * z,
+                         at->r[1][0] * x + at->r[1][1] * y + at->r[1][2] * z,
+                         at->r[2][0] * x + at->r[2][1] * y + at->r[2][2] * z);
+}
+
+/* The point at `arm` from the centre is seen `off` metres farther along n. */
+static void add_row(keyframe_fit *fit, const rlf_keyframe *key, rlf_vec3 arm, rlf_vec3 n,
+                    double off, double weight)
+{
+    const rlf_vec3 turn = rlf_scale(rlf_cross(arm, n), 1.0 / key->length);
+    const double row[6] = {n.x, n.y, n.z, turn.x, turn.y, turn.z};
+    for (int r = 0; r < 6; r++) {
+        fit->b[r] += weight * row[r] * off;
+        for (int c = 0; c <= r; c++) {
+            fit->a[r][c] += weight * row[r] * row[c];
+        }
+    }
+}
+
+/* Pixel of a point; false out of view. u, v: where exactly. */
+static bool pixel_of(const image_grid *grid, rlf_vec3 p, double *u, double *v, int32_t *x,
+                     int32_t *y)
+{
+    if (!(p.z > 0.05) || !rlf_camera_project(&grid->camera, p, u, v) || !(*u > -0.5) ||
+        !(*v > -0.5) || !(*u < grid->width - 0.5) || !(*v < grid->height - 0.5)) {
+        return false;
+    }
+    *x = (int32_t)(*u + 0.5);
+    *y = (int32_t)(*v + 0.5);
+    return true;
+}
+
+/* Metres that the frame shows a point beyond its plane; false without depth there. */
+static bool point_off(const keyframe_frame *frame, rlf_vec3 p, rlf_vec3 n, double *off,
+                      double *sigma)
+{
+    double u, v;
+    int32_t x, y;
+    if (!pixel_of(frame->grid, p, &u, &v, &x, &y)) {
+        return false;
+    }
+    const ptrdiff_t i = (ptrdiff_t)y * frame->grid->width + x;
+    const double z = frame->depth[i];
+    const rlf_vec3 ray = {frame->grid->ray_x[i], frame->grid->ray_y[i], 1.0};
+    const double facing = -rlf_dot(n, ray);
+    if (!(z > 0.0) || !(facing > 0.05)) {
+        return false;
+    }
+    *off = rlf_dot(n, rlf_sub(rlf_scale(ray, z), p));
+    *sigma = (double)rlf_kernel_sigma(frame->noise, (float)p.z) * facing;
+    return true;
+}
+
+static void add_point(const keyframe_frame *frame, const placed *at, const keyframe_point *point,
+                      double slack, keyframe_fit *fit)
+{
+    const rlf_vec3 arm = turned(at, point->p), n = turned(at, point->n);
+    double off, sigma;
+    if (!point_off(frame, rlf_add(at->centre, arm), n, &off, &sigma)) {
+        return;
+    }
+    off -= (double)point->bias;
+    const double bound = slack + sigmas * sigma + 0.002;
+    if (off > bound) { /* the normal faces the camera: it is nearer */
+        fit->hidden++;
+        return;
+    }
+    fit->points++;
+    if (off >= -bound) {
+        fit->agree++;
+        add_row(fit, at->key, arm, n, off, 1.0 / (points_shared * sigma * sigma));
+    }
+}
+
+static double size_of(double x)
+{
+    return x < 0.0 ? -x : x;
+}
+
+/* Of the way along (x, y), that in the direction of the pixels that is longer. */
+static double per_step(double x, double y)
+{
+    return rlf_max(size_of(x), size_of(y));
+}
+
+/* Pixels that the outline is seen farther out than the rim says; false out of view or hidden. */
+static bool rim_off(const keyframe_frame *frame, const placed *at, const keyframe_rim *rim,
+                    rlf_vec3 p, rlf_vec3 out, double *pixels, bool *is_full)
+{
+    double u, v;
+    int32_t x, y;
+    rim_window window;
+    *is_full = false;
+    if (!pixel_of(frame->grid, p, &u, &v, &x, &y) ||
+        !rim_look(frame->grid, frame->depth, &frame->noise, p, turned(at, rim->n), x, y, &window)) {
+        return false;
+    }
+    double ox = out.x - out.z * p.x / p.z, oy = out.y - out.z * p.y / p.z;
+    const double length = sqrt(ox * ox + oy * oy);
+    ox /= length;
+    oy /= length;
+    const double per_pixel = RIM_SIDE / per_step(ox, oy);
+    *pixels = (double)(window.fill - rim->fill) / per_pixel - (u - x) * ox - (v - y) * oy;
+    *is_full = window.fill < 1.0f || window.fill > (float)(RIM_SIDE * RIM_SIDE - 1);
+    return true;
+}
+
+static void add_rim(const keyframe_frame *frame, const placed *at, const keyframe_rim *rim,
+                    double slack, keyframe_fit *fit)
+{
+    const rlf_vec3 arm = turned(at, rim->p), out = turned(at, rim->out);
+    const rlf_vec3 p = rlf_add(at->centre, arm);
+    double pixels;
+    bool is_full;
+    if (!rim_off(frame, at, rim, p, out, &pixels, &is_full)) {
+        fit->rims_hidden++;
+        return;
+    }
+    const double footprint = p.z / frame->grid->camera.fx, sigma = rim_sigma_px * footprint;
+    fit->rims++;
+    const double bound = slack / footprint + sigmas * rim_sigma_px;
+    const bool agrees = !is_full && pixels <= bound && pixels >= -bound;
+    fit->rims_agree += agrees ? 1 : 0;
+    if (agrees || slack > 0.0) {
+        add_row(fit, at->key, arm, out, pixels * footprint, 1.0 / (rims_shared * sigma * sigma));
+    }
+}
+
+void keyframe_look(const keyframe_frame *frame, const rlf_keyframe *key, double slack,
+                   keyframe_fit *fit)
+{
+    const placed at = place(key, fit->x);
+    memset(fit->a, 0, sizeof(fit->a));
+    memset(fit->b, 0, sizeof(fit->b));
+    fit->points = fit->rims = fit->agree = fit->rims_agree = fit->hidden = fit->rims_hidden = 0;
+    for (int32_t k = 0; k < key->point_count; k++) {
+        add_point(frame, &at, &key->point[k], slack, fit);
+    }
+    for (int32_t k = 0; k < key->rim_count; k++) {
+        add_rim(frame, &at, &key->rim[k], slack, fit);
+    }
+    for (int k = 0; k < 6; k++) {
+        fit->a[k][k] += 1.0 / (loose_m * loose_m);
+    }
+}
+
+void keyframe_register(const keyframe_frame *frame, const rlf_keyframe *key, keyframe_fit *fit)
+{
+    static const double slack[PASSES] = {0.1, 0.1, 0.05, 0.03, 0.02, 0.0, 0.0};
+    for (int pass = 0; pass < PASSES; pass++) {
+        double a[6][6], step[6];
+        keyframe_look(frame, key, slack[pass], fit);
+        memcpy(a, fit->a, sizeof(a));
+        math_solve_six(a, fit->b, step);
+        for (int k = 0; k < 6; k++) {
+            fit->x[k] += step[k];
+        }
+    }
+    keyframe_look(frame, key, 0.0, fit);
+}
+
+/* x' (A^-1 + F)^-1 x, where F is what all rows share: A^-1 = C, by columns. */
+double keyframe_off(const keyframe_frame *frame, const rlf_keyframe *key, const keyframe_fit *fit,
+                    const double x[6], double sigma[6])
+{
+    double c[6][6], y[6], sum = 0.0;
+    for (int k = 0; k < 6; k++) {
+        double a[6][6], unit[6] = {0};
+        memcpy(a, fit->a, sizeof(a));
+        unit[k] = 1.0;
+        math_solve_six(a, unit, c[k]);
+    }
+    const double px = shared_px * key->centre.z / frame->grid->camera.fx;
+    const double far = shared_depth * key->centre.z;
+    for (int k = 0; k < 6; k++) {
+        c[k][k] += k == 2 ? far * far + px * px : px * px;
+        sigma[k] = sqrt(c[k][k]);
+    }
+    math_solve_six(c, x, y);
+    for (int k = 0; k < 6; k++) {
+        sum += x[k] * y[k];
+    }
+    return sum;
+}
+
+void keyframe_learn(const keyframe_frame *frame, rlf_keyframe *key)
+{
+    static const double none[6] = {0};
+    const placed at = place(key, none);
+    const float share = 1.0f / (float)(key->rests + 1);
+    for (int32_t k = 0; k < key->point_count; k++) {
+        keyframe_point *point = &key->point[k];
+        const rlf_vec3 arm = turned(&at, point->p), n = turned(&at, point->n);
+        double off, sigma;
+        if (point_off(frame, rlf_add(at.centre, arm), n, &off, &sigma) &&
+            size_of(off - (double)point->bias) < sigmas * sigma + 0.002) {
+            point->bias += share * ((float)off - point->bias);
+        }
+    }
+    for (int32_t k = 0; k < key->rim_count; k++) {
+        keyframe_rim *rim = &key->rim[k];
+        const rlf_vec3 p = rlf_add(at.centre, turned(&at, rim->p));
+        double pixels;
+        bool is_full;
+        if (rim_off(frame, &at, rim, p, turned(&at, rim->out), &pixels, &is_full)) {
+            const rlf_vec3 out = turned(&at, rim->out);
+            const double per_pixel = RIM_SIDE / per_step(out.x, out.y);
+            rim->fill += share * (float)(rlf_clamp(pixels, -1.0, 1.0) * per_pixel);
+        }
+    }
+    key->rests += key->rests < 4 * KEYFRAME_REST ? 1 : 0;
+}
