@@ -353,7 +353,9 @@ static void fit_cell(const rlf_cell_grid *g, const samples *all, const rlf_cell 
     whole_velocity(g, p, whole);
     cell_fit fit = {.cost_still = cost_of(g, all, rest, INFINITY)};
     fit.cost_whole = g->moves ? cost_of(g, all, whole, INFINITY) : fit.cost_still;
-    if (fit.cost_whole <= all->variance * (float)all->count) { /* no more than the noise */
+    /* no more than the noise; or what a keyframe tells, where nothing speaks against it */
+    float least = g->twist->is_sure ? 0.75f * all->limit : all->variance;
+    if (fit.cost_whole <= least * (float)all->count) {
         cell->state = g->moves ? RLF_CELL_WHOLE : RLF_CELL_STILL;
         copy(whole, cell->velocity);
         return;

@@ -4,6 +4,8 @@
 #include "surface/steps.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -11,16 +13,12 @@ enum {
     LEAST_SIZE = 60, /* pixels of a thing */
     SAME_RECT = 2,   /* pixels that a thing's rectangle changes from one look to the next */
     IMAGE_SHARE = 5, /* what fills more than one of so many parts of the image is the room */
-    REST_FRAMES = 8, /* without motion that shows: it rests */
+    LEAST_LINE = 4,  /* frames: fewer always lie on a line */
     CAMERA_MOST = 3  /* of so many things that move at once, more than half of all: the camera */
 };
 
-/* Squared sums of 6 and 3 normal variables that chance exceeds once in 100 times. */
-static const double significant_6 = 16.8, significant_3 = 11.3;
-/* A mean of it: no more is at rest. */
-static const double quiet_6 = 8.0;
-/* Of what is seen so much agrees with a motion; and of the keyframe so much is seen. */
-static const double agree_share = 0.6, seen_share = 0.4;
+/* Squared sums of 6 and 3 normal variables that chance exceeds once in 100 and 10000 times. */
+static const double significant_6 = 16.8, significant_3 = 21.1;
 
 void keyframes_reset(velocity_planes *state)
 {
@@ -29,6 +27,8 @@ void keyframes_reset(velocity_planes *state)
     }
     state->next_thing = RLF_PIECES + 1;
 }
+/* Times its mean square, a pose's square counts: what begins to move is not noise. */
+static const double far_scatter = 4.0;
 
 static bool is_like(const rlf_keyframe *key, const rlf_rect *rect, int32_t size)
 {
@@ -99,10 +99,9 @@ static void take_some(rlf_reconstruct *stage)
 
 /* ---- a frame ---- */
 
-static bool agrees(const rlf_keyframe *key, const keyframe_fit *fit)
+static double square_of(double x)
 {
-    return fit->points >= seen_share * key->point_count && fit->rims >= seen_share * key->rim_count &&
-           fit->agree >= agree_share * fit->points && fit->rims_agree >= agree_share * fit->rims;
+    return x * x;
 }
 
 static void push(rlf_keyframe *key, double time_s, const double x[6])
@@ -116,9 +115,10 @@ static void push(rlf_keyframe *key, double time_s, const double x[6])
     memcpy(key->x, x, 6 * sizeof(double));
 }
 
-/* The line through the last n poses: slope, its variance in units of a pose's, and the squares that
- * it leaves. */
-static double fit_line(const rlf_keyframe *key, int32_t n, double slope[6], double *variance)
+/* The line through the last n poses of the shift (first = 0) or the turn (3): its slope, the
+ * variance of that in units of a pose's, and the squares that it leaves. */
+static double fit_line(const rlf_keyframe *key, int first, int32_t n, double slope[3],
+                       double *variance)
 {
     const keyframe_pose *pose = &key->ring[key->ring_count - n];
     double middle = 0.0, square = 0.0, left = 0.0;
@@ -128,83 +128,86 @@ static double fit_line(const rlf_keyframe *key, int32_t n, double slope[6], doub
     for (int32_t k = 0; k < n; k++) {
         square += (pose[k].time_s - middle) * (pose[k].time_s - middle);
     }
-    for (int c = 0; c < 6; c++) {
+    for (int c = 0; c < 3; c++) {
         double mean = 0.0, sum = 0.0;
         for (int32_t k = 0; k < n; k++) {
-            mean += pose[k].x[c] / n;
-            sum += (pose[k].time_s - middle) * pose[k].x[c];
+            mean += pose[k].x[first + c] / n;
+            sum += (pose[k].time_s - middle) * pose[k].x[first + c];
         }
         slope[c] = sum / square;
         for (int32_t k = 0; k < n; k++) {
-            const double off = pose[k].x[c] - mean - slope[c] * (pose[k].time_s - middle);
-            left += off * off / (key->sigma[c] * key->sigma[c]);
+            const double on = mean + slope[c] * (pose[k].time_s - middle);
+            left += square_of((pose[k].x[first + c] - on) / key->sigma[first + c]);
         }
     }
     *variance = 1.0 / square;
     return left;
 }
 
-static double significance(const double slope[6], const double sigma[6], double variance, int first)
+/* The slope over as many frames as it is a line; 0 when it may be chance. */
+static void measure_velocity(rlf_keyframe *key, int first)
 {
-    double sum = 0.0;
-    for (int c = first; c < first + 3; c++) {
-        sum += slope[c] * slope[c] / (sigma[c] * sigma[c] * variance);
-    }
-    return sum;
-}
-
-/* The slope of the ring over as many frames as it is a line. */
-static void measure_velocity(rlf_keyframe *key)
-{
-    double slope[6] = {0}, best[6] = {0}, variance, of_best = 1.0;
-    memset(key->velocity, 0, sizeof(key->velocity));
+    double slope[3] = {0}, best[3] = {0}, variance, of_best = 1.0, sum = 0.0;
     for (int32_t n = 2; n <= key->ring_count; n++) {
-        const double left = fit_line(key, n, slope, &variance);
-        if (n > 3 && left > significant_6 + 6.0 * (n - 3)) {
+        const double left = fit_line(key, first, n, slope, &variance);
+        if (n >= LEAST_LINE && left > significant_3 + 3.0 * (n - 2)) {
             break;
         }
         memcpy(best, slope, sizeof(best));
         of_best = variance;
     }
-    for (int first = 0; first < 6; first += 3) {
-        if (significance(best, key->sigma, of_best, first) > significant_3) {
-            memcpy(key->velocity + first, best + first, 3 * sizeof(double));
-        }
+    for (int c = 0; c < 3; c++) {
+        sum += square_of(best[c] / key->sigma[first + c]) / of_best;
+    }
+    for (int c = 0; c < 3; c++) {
+        key->velocity[first + c] = sum > significant_3 ? best[c] : 0.0;
     }
 }
 
-/* True when a thing that rested is told to move. */
+static void learn(const keyframe_frame *frame, const keyframe_fit *rest, const double x[6],
+                  rlf_keyframe *key)
+{
+    key->rests += key->rests < 2 * KEYFRAME_REST ? 1 : 0;
+    for (int k = 0; k < 6; k++) {
+        const double most = key->rests > KEYFRAME_REST ? far_scatter * key->scatter[k] : 1.0;
+        key->scatter[k] += (rlf_min(x[k] * x[k], most) - key->scatter[k]) / key->rests;
+    }
+    if (key->rests <= KEYFRAME_REST / 2 || keyframe_agrees(key, rest)) {
+        keyframe_learn(frame, key);
+    }
+}
+
+/* True when a thing that rested is told to move: twice in three frames it is elsewhere, and that
+ * explains what is seen better; and the two are nearer to each other than to rest. */
 static bool watch(const keyframe_frame *frame, double time_s, rlf_keyframe *key)
 {
     keyframe_fit fit = {.points = 0}, rest;
-    double a[6][6], step[6], sigma[6];
+    double change[6], sigma[6];
     keyframe_look(frame, key, 0.0, &fit);
     rest = fit;
-    const bool is_seen = agrees(key, &rest);
-    memcpy(a, fit.a, sizeof(a));
-    math_solve_six(a, fit.b, step);
-    double off = keyframe_off(frame, key, &fit, step, sigma);
-    if (key->rests < KEYFRAME_REST || (is_seen && off < quiet_6)) {
-        if (is_seen || key->rests < KEYFRAME_REST) {
-            keyframe_learn(frame, key);
-        }
-        key->moved = 0;
-        key->ring_count = 0;
-        return false;
-    }
     keyframe_register(frame, key, &fit);
-    off = keyframe_off(frame, key, &fit, fit.x, sigma);
-    const bool is_off = off > quiet_6 && agrees(key, &fit) &&
-                        fit.agree + fit.rims_agree >= rest.agree + rest.rims_agree;
-    if (!is_off) {
-        key->moved = (uint8_t)(key->moved << 1);
-        return false;
+    for (int k = 0; k < 6; k++) {
+        change[k] = fit.x[k] - key->x[k];
     }
-    key->moved = (uint8_t)(key->moved << 1 | (off > significant_6 ? 1 : 0));
+    const double same = keyframe_off(frame, key, &fit, change, sigma);
+    const double off = keyframe_off(frame, key, &fit, fit.x, sigma);
+    const double gain = rest.cost - fit.cost;
+    if (getenv("KEYDBG")) fprintf(stderr, "t %.2f key %d thing %d size %d rect %d %d %d %d off %.1f x %.1f %.1f %.1f  %.1f %.1f %.1f mm  sig %.1f %.1f %.1f cost %.0f>%.0f rest p %d/%d r %d/%d hid %d %d fit p %d/%d r %d/%d hid %d %d of %d %d hist %x\n", time_s, (int)0, key->thing, key->size, key->rect.x0,key->rect.y0,key->rect.x1,key->rect.y1, off, 1e3*fit.x[0],1e3*fit.x[1],1e3*fit.x[2],1e3*fit.x[3],1e3*fit.x[4],1e3*fit.x[5],1e3*sigma[0],1e3*sigma[1],1e3*sigma[2],rest.cost,fit.cost,rest.agree,rest.points,rest.rims_agree,rest.rims,rest.hidden,rest.rims_hidden,fit.agree,fit.points,fit.rims_agree,fit.rims,fit.hidden,fit.rims_hidden,key->point_count,key->rim_count,key->moved);
+    const bool is_elsewhere = key->rests >= KEYFRAME_REST && off > significant_6 &&
+                              gain > significant_6 && keyframe_agrees(key, &fit);
+    const bool is_told = is_elsewhere && (key->moved & 3) != 0 && same < off;
+    if (!is_elsewhere) {
+        learn(frame, &rest, fit.x, key);
+    }
+    key->moved = (uint8_t)(key->moved << 1 | (is_elsewhere ? 1 : 0));
     memcpy(key->sigma, sigma, sizeof(sigma));
+    double way = 0.0;
+    for (int c = 0; c < 3; c++) {
+        way += square_of(fit.x[c] / sigma[c]);
+    }
+    key->ring_count = way < significant_3 ? 0 : key->ring_count; /* it has not yet begun */
     push(key, time_s, fit.x);
-    const int32_t bits = key->moved & 7;
-    return (bits & 1) != 0 && (bits & 6) != 0;
+    return is_told;
 }
 
 static void follow(const keyframe_frame *frame, double time_s, rlf_keyframe *key)
@@ -215,13 +218,14 @@ static void follow(const keyframe_frame *frame, double time_s, rlf_keyframe *key
         fit.x[k] = key->x[k] + key->velocity[k] * dt;
     }
     keyframe_register(frame, key, &fit);
-    if (!agrees(key, &fit)) {
+    if (!keyframe_agrees(key, &fit)) {
         key->state = KEYFRAME_NONE;
         return;
     }
     (void)keyframe_off(frame, key, &fit, fit.x, key->sigma);
     push(key, time_s, fit.x);
-    measure_velocity(key);
+    measure_velocity(key, 0);
+    measure_velocity(key, 3);
 }
 
 void keyframes_follow(rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *departed)
@@ -257,7 +261,8 @@ void keyframes_follow(rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *dep
         for (int c = 0; c < 3; c++) {
             key->told[c] = key->x[c];
         }
-        measure_velocity(key);
+        measure_velocity(key, 0);
+    measure_velocity(key, 3);
     }
 }
 

@@ -12,7 +12,7 @@ enum {
     KEYFRAME_POINTS = 160, /* at most */
     KEYFRAME_RIMS = 96,    /* at most */
     KEYFRAME_RING = 12,    /* frames that a velocity comes from, at most */
-    KEYFRAME_REST = 8      /* frames at rest before it tells motion */
+    KEYFRAME_REST = 16     /* frames at rest before it tells motion */
 };
 
 /* Of the surface, from the keyframe's centre, and how far off it is seen at rest. */
@@ -50,6 +50,7 @@ typedef struct rlf_keyframe {
     uint8_t moved;   /* a bit per frame, the newest lowest */
     double x[6];     /* pose now */
     double sigma[6]; /* of it */
+    double scatter[6]; /* of poses at rest: mean squares */
     keyframe_pose ring[KEYFRAME_RING];
     int32_t ring_count;     /* the newest last */
     double velocity[6];     /* of the pose, per second; 0 = not significant */
@@ -76,6 +77,7 @@ typedef struct keyframe_fit {
     double x[6];           /* the pose */
     double a[6][6];        /* its information, lower triangle */
     double b[6];
+    double cost;           /* squares of all rows, each no more than what is hidden costs */
     int32_t points, rims;             /* seen: neither hidden nor without depth */
     int32_t agree, rims_agree;        /* of them */
     int32_t hidden, rims_hidden;
@@ -90,6 +92,8 @@ typedef struct keyframe_frame {
 /* Rows at the pose fit->x; with slack metres to spare. */
 void keyframe_look(const keyframe_frame *frame, const rlf_keyframe *key, double slack,
                    keyframe_fit *fit);
+/* Enough of it is seen, and most of that agrees. */
+bool keyframe_agrees(const rlf_keyframe *key, const keyframe_fit *fit);
 /* The pose that fits best, from fit->x on. */
 void keyframe_register(const keyframe_frame *frame, const rlf_keyframe *key, keyframe_fit *fit);
 /* Of the step that the rows of fit ask for: squares in units of its variance, 6 unknowns. */

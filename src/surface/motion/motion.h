@@ -25,6 +25,7 @@ typedef struct rlf_twist {
     int32_t samples, inliers;
     int32_t contour_samples, contour_inliers; /* of the contour */
     double contour_excess;                    /* sum of squares in units of their sigma */
+    bool is_sure;                             /* told by a keyframe */
 } rlf_twist;
 
 /* Angular velocity, and with it the velocity at p. */

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { PASSES = 7 };
+enum { PASSES = 3, COARSE_PASSES = 4 };
 
 /* How well a window's fill places an outline, pixels: it runs along the pixels in the worst case.
  */
@@ -17,9 +17,12 @@ static const double points_shared = 2.0, rims_shared = 3.0;
 /* A pose is no better than this, however many pixels tell it: errors that all of them share. */
 static const double shared_px = 0.15, shared_depth = 0.001;
 /* Prior of a pose: what nothing is seen of stays as it is, metres. */
-static const double loose_m = 0.05;
-/* Share of a frame's motion by which normals make it another. */
-static const double sigmas = 3.0;
+static const double loose_m = 0.02;
+/* What is farther off is something else: it costs no more, as what is hidden does. */
+static const double sigmas = 3.0, most_squares = 9.0;
+
+/* Of what is seen so much agrees with a motion; and of the keyframe so much is seen. */
+static const double agree_share = 0.6, seen_share = 0.4;
 
 typedef struct placed {
     const rlf_keyframe *key;
@@ -99,6 +102,12 @@ static bool point_off(const keyframe_frame *frame, rlf_vec3 p, rlf_vec3 n, doubl
     return true;
 }
 
+/* Of the squares that a row costs at most, what it does not cost. */
+static double squares_left(double x)
+{
+    return rlf_max(most_squares - x * x, 0.0);
+}
+
 static void add_point(const keyframe_frame *frame, const placed *at, const keyframe_point *point,
                       double slack, keyframe_fit *fit)
 {
@@ -114,6 +123,7 @@ static void add_point(const keyframe_frame *frame, const placed *at, const keyfr
         return;
     }
     fit->points++;
+    fit->cost -= squares_left(off / sigma) / points_shared;
     if (off >= -bound) {
         fit->agree++;
         add_row(fit, at->key, arm, n, off, 1.0 / (points_shared * sigma * sigma));
@@ -166,6 +176,7 @@ static void add_rim(const keyframe_frame *frame, const placed *at, const keyfram
     }
     const double footprint = p.z / frame->grid->camera.fx, sigma = rim_sigma_px * footprint;
     fit->rims++;
+    fit->cost -= is_full ? 0.0 : squares_left(pixels / rim_sigma_px) / rims_shared;
     const double bound = slack / footprint + sigmas * rim_sigma_px;
     const bool agrees = !is_full && pixels <= bound && pixels >= -bound;
     fit->rims_agree += agrees ? 1 : 0;
@@ -181,30 +192,59 @@ void keyframe_look(const keyframe_frame *frame, const rlf_keyframe *key, double 
     memset(fit->a, 0, sizeof(fit->a));
     memset(fit->b, 0, sizeof(fit->b));
     fit->points = fit->rims = fit->agree = fit->rims_agree = fit->hidden = fit->rims_hidden = 0;
+    fit->cost = most_squares * (key->point_count / points_shared + key->rim_count / rims_shared);
     for (int32_t k = 0; k < key->point_count; k++) {
         add_point(frame, &at, &key->point[k], slack, fit);
     }
     for (int32_t k = 0; k < key->rim_count; k++) {
         add_rim(frame, &at, &key->rim[k], slack, fit);
     }
+}
+
+/* A step from fit->x; what nothing is seen of stays as it is in `start`. */
+static void step(const keyframe_frame *frame, const rlf_keyframe *key, const double start[6],
+                 double slack, keyframe_fit *fit)
+{
+    double a[6][6], b[6], x[6];
+    keyframe_look(frame, key, slack, fit);
+    memcpy(a, fit->a, sizeof(a));
     for (int k = 0; k < 6; k++) {
-        fit->a[k][k] += 1.0 / (loose_m * loose_m);
+        a[k][k] += 1.0 / (loose_m * loose_m);
+        b[k] = fit->b[k] + (start[k] - fit->x[k]) / (loose_m * loose_m);
+    }
+    math_solve_six(a, b, x);
+    for (int k = 0; k < 6; k++) {
+        fit->x[k] += x[k];
     }
 }
 
 void keyframe_register(const keyframe_frame *frame, const rlf_keyframe *key, keyframe_fit *fit)
 {
-    static const double slack[PASSES] = {0.1, 0.1, 0.05, 0.03, 0.02, 0.0, 0.0};
+    static const double slack[COARSE_PASSES] = {0.1, 0.1, 0.05, 0.02};
+    double start[6];
+    memcpy(start, fit->x, sizeof(start));
+    keyframe_fit coarse = *fit;
     for (int pass = 0; pass < PASSES; pass++) {
-        double a[6][6], step[6];
-        keyframe_look(frame, key, slack[pass], fit);
-        memcpy(a, fit->a, sizeof(a));
-        math_solve_six(a, fit->b, step);
-        for (int k = 0; k < 6; k++) {
-            fit->x[k] += step[k];
-        }
+        step(frame, key, start, 0.0, fit);
     }
     keyframe_look(frame, key, 0.0, fit);
+    if (keyframe_agrees(key, fit)) {
+        return;
+    }
+    for (int pass = 0; pass < COARSE_PASSES; pass++) { /* it may be farther off */
+        step(frame, key, start, slack[pass], &coarse);
+    }
+    for (int pass = 0; pass < PASSES; pass++) {
+        step(frame, key, start, 0.0, &coarse);
+    }
+    keyframe_look(frame, key, 0.0, &coarse);
+    *fit = coarse.cost < fit->cost ? coarse : *fit;
+}
+
+bool keyframe_agrees(const rlf_keyframe *key, const keyframe_fit *fit)
+{
+    return fit->points >= seen_share * key->point_count && fit->rims >= seen_share * key->rim_count &&
+           fit->agree >= agree_share * fit->points && fit->rims_agree >= agree_share * fit->rims;
 }
 
 /* x' (A^-1 + F)^-1 x, where F is what all rows share: A^-1 = C, by columns. */
@@ -215,14 +255,18 @@ double keyframe_off(const keyframe_frame *frame, const rlf_keyframe *key, const 
     for (int k = 0; k < 6; k++) {
         double a[6][6], unit[6] = {0};
         memcpy(a, fit->a, sizeof(a));
+        for (int i = 0; i < 6; i++) {
+            a[i][i] += 1.0 / (loose_m * loose_m);
+        }
         unit[k] = 1.0;
         math_solve_six(a, unit, c[k]);
     }
     const double px = shared_px * key->centre.z / frame->grid->camera.fx;
     const double far = shared_depth * key->centre.z;
     for (int k = 0; k < 6; k++) {
-        c[k][k] += k == 2 ? far * far + px * px : px * px;
+        c[k][k] += key->scatter[k];
         sigma[k] = sqrt(c[k][k]);
+        c[k][k] += k == 2 ? far * far + px * px : px * px;
     }
     math_solve_six(c, x, y);
     for (int k = 0; k < 6; k++) {
@@ -235,7 +279,7 @@ void keyframe_learn(const keyframe_frame *frame, rlf_keyframe *key)
 {
     static const double none[6] = {0};
     const placed at = place(key, none);
-    const float share = 1.0f / (float)(key->rests + 1);
+    const float share = 1.0f / (float)key->rests;
     for (int32_t k = 0; k < key->point_count; k++) {
         keyframe_point *point = &key->point[k];
         const rlf_vec3 arm = turned(&at, point->p), n = turned(&at, point->n);
@@ -256,5 +300,4 @@ void keyframe_learn(const keyframe_frame *frame, rlf_keyframe *key)
             rim->fill += share * (float)(rlf_clamp(pixels, -1.0, 1.0) * per_pixel);
         }
     }
-    key->rests += key->rests < 4 * KEYFRAME_REST ? 1 : 0;
 }

@@ -349,6 +349,7 @@ static bool keyframe_motion(const rlf_keyframe *key, rlf_region *region, rlf_twi
 {
     out->centre = rlf_add(key->centre, rlf_vec3_make(key->x[0], key->x[1], key->x[2]));
     out->length = key->length;
+    out->is_sure = true;
     memcpy(out->x, key->velocity, sizeof(out->x));
     region->angular_velocity = rlf_twist_spin(out);
     region->linear_velocity = rlf_twist_velocity(out, region->centroid);
@@ -358,11 +359,11 @@ static bool keyframe_motion(const rlf_keyframe *key, rlf_region *region, rlf_twi
 static bool region_motion(const rlf_flow *job, rlf_region *region, rlf_twist *out)
 {
     const rlf_keyframe *key = keyframe_of_region(job->stage, job->now, region->label);
+    *out = start_from(region, rlf_vec3_make(0, 0, 0));
     if (key != NULL) {
         return keyframe_motion(key, region, out);
     }
     rlf_vec3 seen = centroid_velocity(job, region);
-    *out = start_from(region, rlf_vec3_make(0, 0, 0));
     if (!is_moving(job, region, seen, out)) {
         region->linear_velocity = seen;
         for (int k = 0; k < 6; k++) {
