@@ -11,7 +11,8 @@
 enum {
     TAKEN_PER_FRAME = 4,
     LEAST_SIZE = 60, /* pixels of a thing */
-    SAME_RECT = 2,   /* pixels that a thing's rectangle changes from one look to the next */
+    SAME_PX = 2,     /* that the ends of the same thing differ from one look to the next ... */
+    SAME_SHARE = 10, /* ... and one of so many parts of its extent */
     IMAGE_SHARE = 5, /* what fills more than one of so many parts of the image is the room */
     LEAST_LINE = 4,  /* frames: fewer always lie on a line */
     CAMERA_MOST = 3  /* of so many things that move at once, more than half of all: the camera */
@@ -27,20 +28,23 @@ void keyframes_reset(velocity_planes *state)
     }
     state->next_thing = RLF_PIECES + 1;
 }
+/* Square of a slope in units of its variance: it is right to 5 %. */
+static const double precise_3 = 400.0;
 /* Times its mean square, a pose's square counts: what begins to move is not noise. */
 static const double far_scatter = 4.0;
+
+/* Whether two rows of pixels are the same but for the pixels at their ends. */
+static bool is_near(int32_t a0, int32_t a1, int32_t b0, int32_t b1)
+{
+    const int32_t most = SAME_PX + (a1 - a0) / SAME_SHARE;
+    return a0 - b0 <= most && b0 - a0 <= most && a1 - b1 <= most && b1 - a1 <= most;
+}
 
 static bool is_like(const rlf_keyframe *key, const rlf_rect *rect, int32_t size)
 {
     const rlf_rect *a = &key->rect;
-    const int32_t off[4] = {a->x0 - rect->x0, a->x1 - rect->x1, a->y0 - rect->y0,
-                            a->y1 - rect->y1};
-    for (int k = 0; k < 4; k++) {
-        if (off[k] > SAME_RECT || off[k] < -SAME_RECT) {
-            return false;
-        }
-    }
-    return 10 * size >= 9 * key->size && 10 * key->size >= 9 * size;
+    return is_near(a->x0, a->x1, rect->x0, rect->x1) && is_near(a->y0, a->y1, rect->y0, rect->y1) &&
+           4 * size >= 3 * key->size && 4 * key->size >= 3 * size;
 }
 
 void keyframes_take_things(rlf_reconstruct *stage)
@@ -94,6 +98,7 @@ static void take_some(rlf_reconstruct *stage)
         if (keyframe_take(&view, e, size, &noise, key)) {
             key->thing = k;
         }
+        if (getenv("KEYDBG")) fprintf(stderr, "TAKE thing %d rect %d %d %d %d size %d points %d rims %d state %d\n", k, e->x0,e->y0,e->x1,e->y1,size,key->point_count,key->rim_count,key->state);
     }
 }
 
@@ -144,32 +149,34 @@ static double fit_line(const rlf_keyframe *key, int first, int32_t n, double slo
     return left;
 }
 
-/* The slope over as many frames as it is a line; 0 when it may be chance. */
+/* The slope over as few frames as tell it well, or as many as it is a line; 0 when it may be
+ * chance. */
 static void measure_velocity(rlf_keyframe *key, int first)
 {
-    double slope[3] = {0}, best[3] = {0}, variance, of_best = 1.0, sum = 0.0;
-    for (int32_t n = 2; n <= key->ring_count; n++) {
+    double best[3] = {0}, of_best = 0.0;
+    for (int32_t n = 2; n <= key->ring_count && of_best < precise_3; n++) {
+        double slope[3], variance, sum = 0.0;
         const double left = fit_line(key, first, n, slope, &variance);
         if (n >= LEAST_LINE && left > significant_3 + 3.0 * (n - 2)) {
             break;
         }
+        for (int c = 0; c < 3; c++) {
+            sum += square_of(slope[c] / key->sigma[first + c]) / variance;
+        }
         memcpy(best, slope, sizeof(best));
-        of_best = variance;
+        of_best = sum;
     }
     for (int c = 0; c < 3; c++) {
-        sum += square_of(best[c] / key->sigma[first + c]) / of_best;
-    }
-    for (int c = 0; c < 3; c++) {
-        key->velocity[first + c] = sum > significant_3 ? best[c] : 0.0;
+        key->velocity[first + c] = of_best > significant_3 ? best[c] : 0.0;
     }
 }
 
 static void learn(const keyframe_frame *frame, const keyframe_fit *rest, const double x[6],
                   rlf_keyframe *key)
 {
-    key->rests += key->rests < 2 * KEYFRAME_REST ? 1 : 0;
+    key->rests += key->rests < 3 * KEYFRAME_REST ? 1 : 0;
     for (int k = 0; k < 6; k++) {
-        const double most = key->rests > KEYFRAME_REST ? far_scatter * key->scatter[k] : 1.0;
+        const double most = key->rests > KEYFRAME_REST / 2 ? far_scatter * key->scatter[k] : 1.0;
         key->scatter[k] += (rlf_min(x[k] * x[k], most) - key->scatter[k]) / key->rests;
     }
     if (key->rests <= KEYFRAME_REST / 2 || keyframe_agrees(key, rest)) {
@@ -178,7 +185,8 @@ static void learn(const keyframe_frame *frame, const keyframe_fit *rest, const d
 }
 
 /* True when a thing that rested is told to move: twice in three frames it is elsewhere, and that
- * explains what is seen better; and the two are nearer to each other than to rest. */
+ * explains what is seen better; and the two are nearer to each other than to rest. Once is enough
+ * where rest explains hardly anything. */
 static bool watch(const keyframe_frame *frame, double time_s, rlf_keyframe *key)
 {
     keyframe_fit fit = {.points = 0}, rest;
@@ -195,7 +203,10 @@ static bool watch(const keyframe_frame *frame, double time_s, rlf_keyframe *key)
     if (getenv("KEYDBG")) fprintf(stderr, "t %.2f key %d thing %d size %d rect %d %d %d %d off %.1f x %.1f %.1f %.1f  %.1f %.1f %.1f mm  sig %.1f %.1f %.1f cost %.0f>%.0f rest p %d/%d r %d/%d hid %d %d fit p %d/%d r %d/%d hid %d %d of %d %d hist %x\n", time_s, (int)0, key->thing, key->size, key->rect.x0,key->rect.y0,key->rect.x1,key->rect.y1, off, 1e3*fit.x[0],1e3*fit.x[1],1e3*fit.x[2],1e3*fit.x[3],1e3*fit.x[4],1e3*fit.x[5],1e3*sigma[0],1e3*sigma[1],1e3*sigma[2],rest.cost,fit.cost,rest.agree,rest.points,rest.rims_agree,rest.rims,rest.hidden,rest.rims_hidden,fit.agree,fit.points,fit.rims_agree,fit.rims,fit.hidden,fit.rims_hidden,key->point_count,key->rim_count,key->moved);
     const bool is_elsewhere = key->rests >= KEYFRAME_REST && off > significant_6 &&
                               gain > significant_6 && keyframe_agrees(key, &fit);
-    const bool is_told = is_elsewhere && (key->moved & 3) != 0 && same < off;
+    bool dbg = getenv("KEYDBG") != NULL;
+    const bool is_clear = 2 * (rest.agree + rest.rims_agree) < fit.agree + fit.rims_agree;
+    const bool is_told = is_elsewhere && (is_clear || ((key->moved & 3) != 0 && same < off));
+    if (dbg && is_told) fprintf(stderr, "DEPART t %.2f thing %d rect %d %d %d %d size %d\n", time_s, key->thing, key->rect.x0,key->rect.y0,key->rect.x1,key->rect.y1, key->size);
     if (!is_elsewhere) {
         learn(frame, &rest, fit.x, key);
     }

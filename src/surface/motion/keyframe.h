@@ -12,7 +12,7 @@ enum {
     KEYFRAME_POINTS = 160, /* at most */
     KEYFRAME_RIMS = 96,    /* at most */
     KEYFRAME_RING = 12,    /* frames that a velocity comes from, at most */
-    KEYFRAME_REST = 16     /* frames at rest before it tells motion */
+    KEYFRAME_REST = 12     /* frames at rest before it tells motion */
 };
 
 /* Of the surface, from the keyframe's centre, and how far off it is seen at rest. */
