@@ -18,8 +18,8 @@ enum {
     CAMERA_MOST = 3  /* of so many things that move at once, more than half of all: the camera */
 };
 
-/* Squared sums of 6 and 3 normal variables that chance exceeds once in 100 and 10000 times. */
-static const double significant_6 = 16.8, significant_3 = 21.1;
+/* Squared sums of 6 and 3 normal variables that chance exceeds once in 10000 times. */
+static const double significant_6 = 27.9, significant_3 = 21.1;
 
 void keyframes_reset(velocity_planes *state)
 {
@@ -229,6 +229,7 @@ static void follow(const keyframe_frame *frame, double time_s, rlf_keyframe *key
         fit.x[k] = key->x[k] + key->velocity[k] * dt;
     }
     keyframe_register(frame, key, &fit);
+    if (getenv("KEYDBG")) fprintf(stderr, "MOVES t %.2f x %.1f %.1f %.1f  %.1f %.1f %.1f mm sig %.1f %.1f %.1f cost %.0f fit p %d/%d r %d/%d hid %d %d of %d %d v %.3f %.3f %.3f  %.3f %.3f %.3f\n", time_s, 1e3*fit.x[0],1e3*fit.x[1],1e3*fit.x[2],1e3*fit.x[3],1e3*fit.x[4],1e3*fit.x[5],1e3*key->sigma[0],1e3*key->sigma[1],1e3*key->sigma[2],fit.cost,fit.agree,fit.points,fit.rims_agree,fit.rims,fit.hidden,fit.rims_hidden,key->point_count,key->rim_count, key->velocity[0],key->velocity[1],key->velocity[2],key->velocity[3],key->velocity[4],key->velocity[5]);
     if (!keyframe_agrees(key, &fit)) {
         key->state = KEYFRAME_NONE;
         return;

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { PASSES = 3, COARSE_PASSES = 4 };
+enum { PASSES = 3, COARSE_PASSES = 6 };
 
 /* How well a window's fill places an outline, pixels: it runs along the pixels in the worst case.
  */
@@ -23,6 +23,8 @@ static const double sigmas = 3.0, most_squares = 9.0;
 
 /* Of what is seen so much agrees with a motion; and of the keyframe so much is seen. */
 static const double agree_share = 0.6, seen_share = 0.4;
+/* Of all of the keyframe so much agrees: there is no better. */
+static const double sure_share = 0.9;
 
 typedef struct placed {
     const rlf_keyframe *key;
@@ -220,7 +222,7 @@ static void step(const keyframe_frame *frame, const rlf_keyframe *key, const dou
 
 void keyframe_register(const keyframe_frame *frame, const rlf_keyframe *key, keyframe_fit *fit)
 {
-    static const double slack[COARSE_PASSES] = {0.1, 0.1, 0.05, 0.02};
+    static const double slack[COARSE_PASSES] = {0.1, 0.1, 0.05, 0.05, 0.02, 0.02};
     double start[6];
     memcpy(start, fit->x, sizeof(start));
     keyframe_fit coarse = *fit;
@@ -228,7 +230,7 @@ void keyframe_register(const keyframe_frame *frame, const rlf_keyframe *key, key
         step(frame, key, start, 0.0, fit);
     }
     keyframe_look(frame, key, 0.0, fit);
-    if (keyframe_agrees(key, fit)) {
+    if (fit->agree >= sure_share * key->point_count && fit->rims_agree >= sure_share * key->rim_count) {
         return;
     }
     for (int pass = 0; pass < COARSE_PASSES; pass++) { /* it may be farther off */
