@@ -171,7 +171,7 @@ void rlf_depart_find(rlf_reconstruct *stage, rlf_slot *slot)
     if (depart->thing == NULL || background_image_newest(stage) == NULL) {
         return;
     }
-    keyframes_follow(stage, slot, departed);
+    keyframes_watch(stage, slot, departed);
     departed[0] = 0;
     depart->is_urgent = memchr(departed, 1, sizeof(departed)) != NULL;
     if (depart->is_urgent) {

@@ -30,6 +30,11 @@ void keyframes_reset(velocity_planes *state)
 }
 /* Square of a slope in units of its variance: it is right to 5 %. */
 static const double precise_3 = 400.0;
+/* Radians: from there on a thing looks otherwise. */
+static const double most_turn = 0.436;
+static const double longest_gap_s = 0.2;
+/* So much of what is seen agrees with one motion: it is of one piece. */
+static const double whole_share = 0.9;
 /* Times its mean square, a pose's square counts: what begins to move is not noise. */
 static const double far_scatter = 4.0;
 
@@ -81,7 +86,6 @@ static void take_some(rlf_reconstruct *stage)
     velocity_planes *state = &stage->velocity;
     const rlf_depart *depart = &stage->background.depart;
     const background_image *image = background_image_newest(stage);
-    const rlf_kernel_noise noise = rlf_kernel_noise_make(&stage->def.rig.noise);
     int32_t taken = 0;
     for (; state->next_thing <= RLF_PIECES && taken < TAKEN_PER_FRAME; state->next_thing++) {
         const int32_t k = state->next_thing;
@@ -92,10 +96,16 @@ static void take_some(rlf_reconstruct *stage)
             (e->x1 - e->x0) * (e->y1 - e->y0) > stage->grid.count / IMAGE_SHARE) {
             continue;
         }
-        const keyframe_view view = {&stage->grid, depart->thing, (uint8_t)k, depart->depth,
-                                    (const float *const *)image->normal};
+        const keyframe_view view = {&stage->grid,
+                                    depart->thing,
+                                    NULL,
+                                    k,
+                                    depart->depth,
+                                    depart->depth,
+                                    (const float *const *)image->normal,
+                                    rlf_kernel_noise_make(&stage->def.rig.noise)};
         taken++;
-        if (keyframe_take(&view, e, size, &noise, key)) {
+        if (keyframe_take(&view, e, size, key)) {
             key->thing = k;
         }
         if (getenv("KEYDBG")) fprintf(stderr, "TAKE thing %d rect %d %d %d %d size %d points %d rims %d state %d\n", k, e->x0,e->y0,e->x1,e->y1,size,key->point_count,key->rim_count,key->state);
@@ -221,60 +231,47 @@ static bool watch(const keyframe_frame *frame, double time_s, rlf_keyframe *key)
     return is_told;
 }
 
-static void follow(const keyframe_frame *frame, double time_s, rlf_keyframe *key)
+static keyframe_frame frame_of(const rlf_reconstruct *stage)
 {
-    keyframe_fit fit = {.points = 0};
-    const double dt = time_s - key->ring[key->ring_count - 1].time_s;
-    for (int k = 0; k < 6; k++) {
-        fit.x[k] = key->x[k] + key->velocity[k] * dt;
+    return (keyframe_frame){&stage->grid, stage->work.raw,
+                            rlf_kernel_noise_make(&stage->def.rig.noise)};
+}
+
+static void start(rlf_keyframe *key)
+{
+    key->state = KEYFRAME_MOVES;
+    key->thing = 0;
+    key->is_whole = true;
+    for (int c = 0; c < 3; c++) {
+        key->told[c] = key->x[c];
     }
-    keyframe_register(frame, key, &fit);
-    if (getenv("KEYDBG")) fprintf(stderr, "MOVES t %.2f x %.1f %.1f %.1f  %.1f %.1f %.1f mm sig %.1f %.1f %.1f cost %.0f fit p %d/%d r %d/%d hid %d %d of %d %d v %.3f %.3f %.3f  %.3f %.3f %.3f\n", time_s, 1e3*fit.x[0],1e3*fit.x[1],1e3*fit.x[2],1e3*fit.x[3],1e3*fit.x[4],1e3*fit.x[5],1e3*key->sigma[0],1e3*key->sigma[1],1e3*key->sigma[2],fit.cost,fit.agree,fit.points,fit.rims_agree,fit.rims,fit.hidden,fit.rims_hidden,key->point_count,key->rim_count, key->velocity[0],key->velocity[1],key->velocity[2],key->velocity[3],key->velocity[4],key->velocity[5]);
-    if (!keyframe_agrees(key, &fit)) {
-        key->state = KEYFRAME_NONE;
-        return;
-    }
-    (void)keyframe_off(frame, key, &fit, fit.x, key->sigma);
-    push(key, time_s, fit.x);
     measure_velocity(key, 0);
     measure_velocity(key, 3);
 }
 
-void keyframes_follow(rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *departed)
+void keyframes_watch(rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *departed)
 {
     velocity_planes *state = &stage->velocity;
-    const keyframe_frame frame = {&stage->grid, stage->work.raw,
-                                  rlf_kernel_noise_make(&stage->def.rig.noise)};
+    const keyframe_frame frame = frame_of(stage);
     const double time_s = 1e-9 * (double)slot->surface.time_ns;
     int32_t moving = 0, resting = 0;
     take_some(stage);
     for (int32_t i = 0; i < RLF_KEYFRAMES; i++) {
         rlf_keyframe *key = &state->keyframe[i];
-        if (key->state == KEYFRAME_MOVES) {
-            follow(&frame, time_s, key);
-        } else if (key->state == KEYFRAME_RESTS) {
+        if (key->state == KEYFRAME_RESTS) {
             resting++;
             departed[key->thing] = watch(&frame, time_s, key);
             moving += departed[key->thing];
         }
     }
-    const bool is_camera = moving >= CAMERA_MOST && 2 * moving > resting;
+    if (moving >= CAMERA_MOST && 2 * moving > resting) {
+        memset(departed, 0, RLF_PIECES + 1);
+    }
     for (int32_t i = 0; i < RLF_KEYFRAMES && moving > 0; i++) {
         rlf_keyframe *key = &state->keyframe[i];
-        if (key->state != KEYFRAME_RESTS || !departed[key->thing]) {
-            continue;
+        if (key->state == KEYFRAME_RESTS && departed[key->thing]) {
+            start(key);
         }
-        if (is_camera) {
-            departed[key->thing] = 0;
-            continue;
-        }
-        key->state = KEYFRAME_MOVES;
-        key->thing = 0;
-        for (int c = 0; c < 3; c++) {
-            key->told[c] = key->x[c];
-        }
-        measure_velocity(key, 0);
-    measure_velocity(key, 3);
     }
 }
 
@@ -284,33 +281,92 @@ void keyframes_follow(rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *dep
 static int32_t label_of(const rlf_reconstruct *stage, const rlf_slot *slot, const rlf_keyframe *key)
 {
     int32_t label = 0, votes = 0;
-    const rlf_quat q = rlf_quat_from_rotation_vector(rlf_scale(
-        rlf_vec3_make(key->x[3], key->x[4], key->x[5]), 1.0 / key->length));
-    const rlf_vec3 centre = rlf_add(key->centre, rlf_vec3_make(key->x[0], key->x[1], key->x[2]));
+    const image_grid *grid = &stage->grid;
     for (int32_t k = 0; k < key->point_count; k++) {
-        const float *p = key->point[k].p;
-        const rlf_vec3 at = rlf_add(centre, rlf_rotate(q, rlf_vec3_make(p[0], p[1], p[2])));
-        double u, v;
-        if (!(at.z > 0.05) || !rlf_camera_project(&stage->grid.camera, at, &u, &v) || !(u > -0.5) ||
-            !(v > -0.5) || !(u < stage->grid.width - 0.5) || !(v < stage->grid.height - 0.5)) {
-            continue;
-        }
-        const ptrdiff_t i =
-            (ptrdiff_t)(int32_t)(v + 0.5) * stage->grid.width + (int32_t)(u + 0.5);
-        const int32_t seen = slot->foreground[i] ? slot->label[i] : 0;
+        const ptrdiff_t i = keyframe_pixel(grid, key, key->point[k].p);
+        const int32_t seen = i >= 0 && slot->foreground[i] ? slot->label[i] : 0;
         label = votes == 0 ? seen : label;
         votes += seen == label ? 1 : -1;
     }
     return label;
 }
 
-const rlf_keyframe *keyframe_of_region(const rlf_reconstruct *stage, const rlf_slot *slot,
-                                       int32_t label)
+static bool is_turned(const rlf_keyframe *key, const double x[6])
+{
+    const double turn = square_of(x[3]) + square_of(x[4]) + square_of(x[5]);
+    return turn > square_of(most_turn * key->length);
+}
+
+static void follow(const keyframe_frame *frame, double time_s, rlf_keyframe *key)
+{
+    keyframe_fit fit = {.points = 0};
+    const double dt = time_s - key->ring[key->ring_count - 1].time_s;
+    if (!(dt > 0.0) || dt > longest_gap_s) {
+        key->state = dt == 0.0 ? key->state : KEYFRAME_NONE;
+        return;
+    }
+    for (int k = 0; k < 6; k++) {
+        fit.x[k] = key->x[k] + key->velocity[k] * dt;
+    }
+    keyframe_register(frame, key, &fit);
+    if (!keyframe_agrees(key, &fit) || is_turned(key, fit.x)) {
+        key->state = KEYFRAME_NONE;
+        return;
+    }
+    (void)keyframe_off(frame, key, &fit, fit.x, key->sigma);
+    key->is_whole = fit.agree >= whole_share * fit.points && fit.rims_agree >= whole_share * fit.rims;
+    push(key, time_s, fit.x);
+    measure_velocity(key, 0);
+    measure_velocity(key, 3);
+}
+
+/* Of a region as it is now, if it has none. */
+static void take_region(rlf_reconstruct *stage, const rlf_slot *slot, const rlf_region *region)
+{
+    static const double none[6] = {0};
+    rlf_keyframe *key = find_free(&stage->velocity);
+    const rlf_rect rect = {region->x0, region->y0, region->x1, region->y1};
+    const keyframe_view view = {&stage->grid,
+                                NULL,
+                                slot->label,
+                                region->label,
+                                slot->depth,
+                                stage->work.raw,
+                                (const float *const *)slot->normal,
+                                rlf_kernel_noise_make(&stage->def.rig.noise)};
+    if (key != NULL && keyframe_of_region(stage, region->label) == NULL &&
+        keyframe_take(&view, &rect, region->point_count, key)) {
+        key->state = KEYFRAME_MOVES;
+        key->label = region->label;
+        push(key, 1e-9 * (double)slot->surface.time_ns, none);
+    }
+}
+
+void keyframes_follow(rlf_reconstruct *stage, const rlf_slot *slot)
+{
+    const keyframe_frame frame = frame_of(stage);
+    const double time_s = 1e-9 * (double)slot->surface.time_ns;
+    for (int32_t i = 0; i < RLF_KEYFRAMES; i++) {
+        rlf_keyframe *key = &stage->velocity.keyframe[i];
+        if (key->state == KEYFRAME_MOVES) {
+            follow(&frame, time_s, key);
+        }
+        if (key->state == KEYFRAME_MOVES) {
+            key->label = label_of(stage, slot, key);
+            key->state = key->label == 0 ? KEYFRAME_NONE : key->state;
+        }
+    }
+    for (int32_t r = 0; r < slot->foreground_region_count; r++) {
+        take_region(stage, slot, &slot->regions[slot->foreground_region_first + r]);
+    }
+}
+
+const rlf_keyframe *keyframe_of_region(const rlf_reconstruct *stage, int32_t label)
 {
     const rlf_keyframe *best = NULL;
     for (int32_t i = 0; i < RLF_KEYFRAMES; i++) {
         const rlf_keyframe *key = &stage->velocity.keyframe[i];
-        if (key->state == KEYFRAME_MOVES && label_of(stage, slot, key) == label &&
+        if (key->state == KEYFRAME_MOVES && key->label == label &&
             (best == NULL || key->size > best->size)) {
             best = key;
         }

@@ -9,14 +9,18 @@ enum {
     LEAST_POINTS = 24,
     LEAST_RIMS = 12,
     INSIDE = 2, /* pixels from the outline: nearer ones are mixed */
-    BEYOND = 3  /* between things there are pixels of none */
+    BEYOND = 3, /* between things there are pixels of none */
+    LINES = 24  /* rows, and columns, in which its outline is looked for */
 };
 
 static bool is_of(const keyframe_view *view, int32_t x, int32_t y)
 {
     const image_grid *grid = view->grid;
-    return x >= 0 && y >= 0 && x < grid->width && y < grid->height &&
-           view->member[(ptrdiff_t)y * grid->width + x] == view->number;
+    if (x < 0 || y < 0 || x >= grid->width || y >= grid->height) {
+        return false;
+    }
+    const ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+    return view->thing != NULL ? view->thing[i] == view->number : view->label[i] == view->number;
 }
 
 static bool is_within(const keyframe_view *view, int32_t x, int32_t y, int32_t by)
@@ -66,68 +70,66 @@ static void take_points(const keyframe_view *view, const rlf_rect *rect, int32_t
     }
 }
 
-/* Whether the thing ends at this pixel before something farther. */
-static bool is_rim(const keyframe_view *view, int32_t x, int32_t y)
+/* Whether something farther is beyond the pixel's next ones in a direction. */
+static bool is_before(const keyframe_view *view, int32_t x, int32_t y, int32_t dx, int32_t dy)
 {
-    static const int32_t ways[4][2] = {{0, -1}, {-1, 0}, {1, 0}, {0, 1}};
     const image_grid *grid = view->grid;
-    const ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-    for (int32_t k = 0; k < 4; k++) {
-        const int32_t u = x + BEYOND * ways[k][0], v = y + BEYOND * ways[k][1];
-        if (is_of(view, x + ways[k][0], y + ways[k][1]) || is_of(view, u, v) || u < 0 || v < 0 ||
-            u >= grid->width || v >= grid->height) {
-            continue;
-        }
-        const float behind = view->depth[(ptrdiff_t)v * grid->width + u];
-        if (behind > view->depth[i] + (float)RIM_GAP_M) {
-            return true;
-        }
+    const int32_t u = x + BEYOND * dx, v = y + BEYOND * dy;
+    if (u < 0 || v < 0 || u >= grid->width || v >= grid->height || is_of(view, u, v)) {
+        return false;
     }
-    return false;
+    const float z = view->depth[(ptrdiff_t)y * grid->width + x];
+    return view->depth[(ptrdiff_t)v * grid->width + u] > z + (float)RIM_GAP_M;
 }
 
-static bool measure_rim(const keyframe_view *view, int32_t x, int32_t y,
-                        const rlf_kernel_noise *noise, keyframe_rim *out)
+static void measure_rim(const keyframe_view *view, int32_t x, int32_t y, rlf_keyframe *key)
 {
     const ptrdiff_t i = (ptrdiff_t)y * view->grid->width + x;
     const rlf_vec3 p = point_at(view, i), n = normal_at(view, i);
     rim_window window;
-    if (!is_known(view, i) ||
-        !rim_look(view->grid, view->depth, noise, p, n, x, y, &window)) {
-        return false;
+    if (key->rim_count == KEYFRAME_RIMS || !is_known(view, i) ||
+        !rim_look(view->grid, view->seen, &view->noise, p, n, x, y, &window)) {
+        return;
     }
     const float pull = sqrtf(window.x * window.x + window.y * window.y);
     if (pull < RIM_LEAST_PULL) {
-        return false; /* a corner */
+        return; /* a corner */
     }
     const rlf_vec3 ray = rlf_normalize(p);
     const rlf_vec3 m = rlf_vec3_make(-window.x / pull, -window.y / pull, 0.0);
-    store(out->p, p);
-    store(out->n, n);
-    store(out->out, rlf_normalize(rlf_mad(m, ray, -rlf_dot(m, ray))));
-    out->fill = window.fill;
-    return true;
+    keyframe_rim *rim = &key->rim[key->rim_count++];
+    store(rim->p, p);
+    store(rim->n, n);
+    store(rim->out, rlf_normalize(rlf_mad(m, ray, -rlf_dot(m, ray))));
+    rim->fill = window.fill;
 }
 
-/* Every step-th of them; twice that where they become too many. */
-static void take_rims(const keyframe_view *view, const rlf_rect *rect,
-                      const rlf_kernel_noise *noise, rlf_keyframe *out)
+/* Where a line of pixels, from (x, y) on, enters and leaves the thing. */
+static void take_line(const keyframe_view *view, int32_t x, int32_t y, int32_t dx, int32_t dy,
+                      int32_t count, rlf_keyframe *out)
 {
-    int32_t seen = 0, step = 1;
-    for (int32_t y = rect->y0; y < rect->y1; y++) {
-        for (int32_t x = rect->x0; x < rect->x1; x++) {
-            if (!is_of(view, x, y) || !is_rim(view, x, y) || seen++ % step != 0) {
-                continue;
-            }
-            if (out->rim_count == KEYFRAME_RIMS) {
-                for (int32_t k = 0; k < KEYFRAME_RIMS / 2; k++) {
-                    out->rim[k] = out->rim[2 * k];
-                }
-                out->rim_count = KEYFRAME_RIMS / 2;
-                step *= 2;
-            }
-            out->rim_count += measure_rim(view, x, y, noise, &out->rim[out->rim_count]) ? 1 : 0;
+    bool was_of = false;
+    for (int32_t k = 0; k <= count; k++, x += dx, y += dy) {
+        const bool is = k < count && is_of(view, x, y);
+        const int32_t back = is ? 0 : 1, sign = is ? -1 : 1;
+        const int32_t u = x - back * dx, v = y - back * dy;
+        if (is != was_of && is_before(view, u, v, sign * dx, sign * dy)) {
+            measure_rim(view, u, v, out);
         }
+        was_of = is;
+    }
+}
+
+/* Along some rows and columns. */
+static void take_rims(const keyframe_view *view, const rlf_rect *rect, rlf_keyframe *out)
+{
+    const int32_t width = rect->x1 - rect->x0, height = rect->y1 - rect->y0;
+    const int32_t dx = 1 + width / LINES, dy = 1 + height / LINES;
+    for (int32_t y = rect->y0 + dy / 2; y < rect->y1; y += dy) {
+        take_line(view, rect->x0, y, 1, 0, width, out);
+    }
+    for (int32_t x = rect->x0 + dx / 2; x < rect->x1; x += dx) {
+        take_line(view, x, rect->y0, 0, 1, height, out);
     }
 }
 
@@ -157,7 +159,7 @@ static void centre(rlf_keyframe *key)
 }
 
 bool keyframe_take(const keyframe_view *view, const rlf_rect *rect, int32_t size,
-                   const rlf_kernel_noise *noise, rlf_keyframe *out)
+                   rlf_keyframe *out)
 {
     memset(out, 0, sizeof(*out));
     int32_t step = 1;
@@ -165,7 +167,7 @@ bool keyframe_take(const keyframe_view *view, const rlf_rect *rect, int32_t size
         step++;
     }
     take_points(view, rect, step, out);
-    take_rims(view, rect, noise, out);
+    take_rims(view, rect, out);
     if (out->point_count < LEAST_POINTS || out->rim_count < LEAST_RIMS) {
         return false;
     }

@@ -55,21 +55,25 @@ typedef struct rlf_keyframe {
     int32_t ring_count;     /* the newest last */
     double velocity[6];     /* of the pose, per second; 0 = not significant */
     double told[3];         /* the way that it made before it was told */
+    bool is_whole;          /* nearly all that is seen agrees with the pose */
 } rlf_keyframe;
 
-/* What a keyframe is taken of. */
+/* What a keyframe is taken of: where `thing`, or if that is NULL `label`, is `number`. */
 typedef struct keyframe_view {
     const image_grid *grid;
-    const uint8_t *member; /* plane: `number` where the thing is */
-    uint8_t number;
+    const uint8_t *thing;
+    const int32_t *label;
+    int32_t number;
     const float *depth;
+    const float *seen; /* depth of which the outline's windows are measured */
     const float *const *normal;
+    rlf_kernel_noise noise;
 } keyframe_view;
 
 /* ---- keyframe.c ---- */
 /* False when too little of it is seen, or of its outline. */
 bool keyframe_take(const keyframe_view *view, const rlf_rect *rect, int32_t size,
-                   const rlf_kernel_noise *noise, rlf_keyframe *out);
+                   rlf_keyframe *out);
 
 /* ---- register.c ---- */
 /* How a keyframe fits a frame. */
@@ -99,17 +103,21 @@ void keyframe_register(const keyframe_frame *frame, const rlf_keyframe *key, key
 /* Of the step that the rows of fit ask for: squares in units of its variance, 6 unknowns. */
 double keyframe_off(const keyframe_frame *frame, const rlf_keyframe *key, const keyframe_fit *fit,
                     const double x[6], double sigma[6]);
+/* Pixel that sees a point of the keyframe in its pose; < 0 out of view. */
+ptrdiff_t keyframe_pixel(const image_grid *grid, const rlf_keyframe *key, const float p[3]);
 /* What a frame at rest shows goes into the means. */
 void keyframe_learn(const keyframe_frame *frame, rlf_keyframe *key);
 
 /* ---- follow.c ---- */
 void keyframes_reset(velocity_planes *state);
-/* All keyframes in a frame. `departed`: 1 of the background's things that move from now on. */
-void keyframes_follow(rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *departed);
+/* Those that rest in the background. `departed`, RLF_PIECES + 1: 1 of its things that move from now
+ * on. */
+void keyframes_watch(rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *departed);
+/* Those of the foreground's regions. */
+void keyframes_follow(rlf_reconstruct *stage, const rlf_slot *slot);
 /* Keyframes of the background's things, which have just been found anew. */
 void keyframes_take_things(rlf_reconstruct *stage);
 /* The region's motion by its keyframe; NULL: it has none. */
-const rlf_keyframe *keyframe_of_region(const rlf_reconstruct *stage, const rlf_slot *slot,
-                                       int32_t label);
+const rlf_keyframe *keyframe_of_region(const rlf_reconstruct *stage, int32_t label);
 
 #endif

@@ -303,3 +303,12 @@ void keyframe_learn(const keyframe_frame *frame, rlf_keyframe *key)
         }
     }
 }
+
+ptrdiff_t keyframe_pixel(const image_grid *grid, const rlf_keyframe *key, const float p[3])
+{
+    const placed at = place(key, key->x);
+    double u, v;
+    int32_t x, y;
+    const bool is_in = pixel_of(grid, rlf_add(at.centre, turned(&at, p)), &u, &v, &x, &y);
+    return is_in ? (ptrdiff_t)y * grid->width + x : -1;
+}

@@ -13,7 +13,6 @@ typedef struct velocity_planes {
     float *seen;            /* plane: of the frame before; 0 between frames */
     struct rlf_cell *cells; /* of motion/cells.c */
     uint8_t *is_steady;     /* plane, scratch */
-    uint8_t *is_contour;    /* plane, scratch: a region's outline may be here */
     struct rlf_keyframe *keyframe;    /* RLF_KEYFRAMES */
     bool is_taken[RLF_PIECES + 1];    /* of each of the background's things: it has one ... */
     int32_t next_thing;               /* ... or it was not yet asked, from this one on */
