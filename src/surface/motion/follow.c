@@ -33,7 +33,8 @@ static const double precise_3 = 400.0;
 /* Radians: from there on a thing looks otherwise. */
 static const double most_turn = 0.436;
 static const double longest_gap_s = 0.2;
-/* So much of what is seen agrees with one motion: it is of one piece. */
+/* So much of what is seen agrees with one motion: it is of one piece, and nobody who holds his arms
+ * still. */
 static const double whole_share = 0.9;
 /* Times its mean square, a pose's square counts: what begins to move is not noise. */
 static const double far_scatter = 4.0;
@@ -241,7 +242,7 @@ static void start(rlf_keyframe *key)
 {
     key->state = KEYFRAME_MOVES;
     key->thing = 0;
-    key->is_whole = true;
+    key->is_whole = key->has_stood = true;
     for (int c = 0; c < 3; c++) {
         key->told[c] = key->x[c];
     }
@@ -314,8 +315,10 @@ static void follow(const keyframe_frame *frame, double time_s, rlf_keyframe *key
         return;
     }
     (void)keyframe_off(frame, key, &fit, fit.x, key->sigma);
-    key->is_whole = fit.agree >= whole_share * fit.points && fit.rims_agree >= whole_share * fit.rims;
     push(key, time_s, fit.x);
+    key->is_whole = key->has_stood || (key->ring_count >= LEAST_LINE &&
+                                       fit.agree >= whole_share * fit.points &&
+                                       fit.rims_agree >= whole_share * fit.rims);
     measure_velocity(key, 0);
     measure_velocity(key, 3);
 }

@@ -55,7 +55,8 @@ typedef struct rlf_keyframe {
     int32_t ring_count;     /* the newest last */
     double velocity[6];     /* of the pose, per second; 0 = not significant */
     double told[3];         /* the way that it made before it was told */
-    bool is_whole;          /* nearly all that is seen agrees with the pose */
+    bool is_whole;          /* it is of one piece ... */
+    bool has_stood;         /* ... for it stood in the background */
 } rlf_keyframe;
 
 /* What a keyframe is taken of: where `thing`, or if that is NULL `label`, is `number`. */
