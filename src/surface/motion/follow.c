@@ -4,8 +4,6 @@
 #include "surface/steps.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -109,7 +107,6 @@ static void take_some(rlf_reconstruct *stage)
         if (keyframe_take(&view, e, size, key)) {
             key->thing = k;
         }
-        if (getenv("KEYDBG")) fprintf(stderr, "TAKE thing %d rect %d %d %d %d size %d points %d rims %d state %d\n", k, e->x0,e->y0,e->x1,e->y1,size,key->point_count,key->rim_count,key->state);
     }
 }
 
@@ -211,13 +208,10 @@ static bool watch(const keyframe_frame *frame, double time_s, rlf_keyframe *key)
     const double same = keyframe_off(frame, key, &fit, change, sigma);
     const double off = keyframe_off(frame, key, &fit, fit.x, sigma);
     const double gain = rest.cost - fit.cost;
-    if (getenv("KEYDBG")) fprintf(stderr, "t %.2f key %d thing %d size %d rect %d %d %d %d off %.1f x %.1f %.1f %.1f  %.1f %.1f %.1f mm  sig %.1f %.1f %.1f cost %.0f>%.0f rest p %d/%d r %d/%d hid %d %d fit p %d/%d r %d/%d hid %d %d of %d %d hist %x\n", time_s, (int)0, key->thing, key->size, key->rect.x0,key->rect.y0,key->rect.x1,key->rect.y1, off, 1e3*fit.x[0],1e3*fit.x[1],1e3*fit.x[2],1e3*fit.x[3],1e3*fit.x[4],1e3*fit.x[5],1e3*sigma[0],1e3*sigma[1],1e3*sigma[2],rest.cost,fit.cost,rest.agree,rest.points,rest.rims_agree,rest.rims,rest.hidden,rest.rims_hidden,fit.agree,fit.points,fit.rims_agree,fit.rims,fit.hidden,fit.rims_hidden,key->point_count,key->rim_count,key->moved);
     const bool is_elsewhere = key->rests >= KEYFRAME_REST && off > significant_6 &&
                               gain > significant_6 && keyframe_agrees(key, &fit);
-    bool dbg = getenv("KEYDBG") != NULL;
     const bool is_clear = 2 * (rest.agree + rest.rims_agree) < fit.agree + fit.rims_agree;
     const bool is_told = is_elsewhere && (is_clear || ((key->moved & 3) != 0 && same < off));
-    if (dbg && is_told) fprintf(stderr, "DEPART t %.2f thing %d rect %d %d %d %d size %d\n", time_s, key->thing, key->rect.x0,key->rect.y0,key->rect.x1,key->rect.y1, key->size);
     if (!is_elsewhere) {
         learn(frame, &rest, fit.x, key);
     }

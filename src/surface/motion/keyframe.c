@@ -10,7 +10,7 @@ enum {
     LEAST_RIMS = 12,
     INSIDE = 2, /* pixels from the outline: nearer ones are mixed */
     BEYOND = 3, /* between things there are pixels of none */
-    LINES = 24  /* rows, and columns, in which its outline is looked for */
+    LINES = 40  /* rows, and columns, in which its outline is looked for */
 };
 
 static bool is_of(const keyframe_view *view, int32_t x, int32_t y)
@@ -82,12 +82,21 @@ static bool is_before(const keyframe_view *view, int32_t x, int32_t y, int32_t d
     return view->depth[(ptrdiff_t)v * grid->width + u] > z + (float)RIM_GAP_M;
 }
 
+/* Every second one is enough where they become too many. */
+static void thin_out(rlf_keyframe *key)
+{
+    for (int32_t k = 0; k < KEYFRAME_RIMS / 2; k++) {
+        key->rim[k] = key->rim[2 * k];
+    }
+    key->rim_count = KEYFRAME_RIMS / 2;
+}
+
 static void measure_rim(const keyframe_view *view, int32_t x, int32_t y, rlf_keyframe *key)
 {
     const ptrdiff_t i = (ptrdiff_t)y * view->grid->width + x;
     const rlf_vec3 p = point_at(view, i), n = normal_at(view, i);
     rim_window window;
-    if (key->rim_count == KEYFRAME_RIMS || !is_known(view, i) ||
+    if (!is_known(view, i) ||
         !rim_look(view->grid, view->seen, &view->noise, p, n, x, y, &window)) {
         return;
     }
@@ -97,6 +106,9 @@ static void measure_rim(const keyframe_view *view, int32_t x, int32_t y, rlf_key
     }
     const rlf_vec3 ray = rlf_normalize(p);
     const rlf_vec3 m = rlf_vec3_make(-window.x / pull, -window.y / pull, 0.0);
+    if (key->rim_count == KEYFRAME_RIMS) {
+        thin_out(key);
+    }
     keyframe_rim *rim = &key->rim[key->rim_count++];
     store(rim->p, p);
     store(rim->n, n);
