@@ -1,5 +1,5 @@
 /* Keyframes from frame to frame: what rested and moves, and how fast. */
-#include "math/solve_six.h"
+#include "math/eigen.h"
 #include "surface/motion/keyframe.h"
 #include "surface/steps.h"
 
@@ -16,8 +16,9 @@ enum {
     CAMERA_MOST = 3  /* of so many things that move at once, more than half of all: the camera */
 };
 
-/* Squared sums of 6 and 3 normal variables that chance exceeds once in 10000 times. */
-static const double significant_6 = 27.9, significant_3 = 21.1;
+/* Squared sums of 6 and 3 normal variables that chance exceeds once in 10000 times; the square of
+ * one that it exceeds once in 100. */
+static const double significant_6 = 27.9, significant_3 = 21.1, likely_1 = 6.63;
 
 void keyframes_reset(velocity_planes *state)
 {
@@ -26,8 +27,8 @@ void keyframes_reset(velocity_planes *state)
     }
     state->next_thing = RLF_PIECES + 1;
 }
-/* Square of a slope in units of its variance: it is right to 5 %. */
-static const double precise_3 = 400.0;
+/* Square of a slope in units of its variance in the worst direction: it is right to 5 %. */
+static const double precise = 400.0;
 /* Radians: from there on a thing looks otherwise. */
 static const double most_turn = 0.436;
 static const double longest_gap_s = 0.2;
@@ -150,33 +151,57 @@ static double fit_line(const rlf_keyframe *key, int first, int32_t n, double slo
         slope[c] = sum / square;
         for (int32_t k = 0; k < n; k++) {
             const double on = mean + slope[c] * (pose[k].time_s - middle);
-            left += square_of((pose[k].x[first + c] - on) / key->sigma[first + c]);
+            left += square_of(pose[k].x[first + c] - on) / key->spread[first + c][first + c];
         }
     }
     *variance = 1.0 / square;
     return left;
 }
 
-/* The slope over as few frames as tell it well, or as many as it is a line; 0 when it may be
- * chance. */
+/* Of a slope with a covariance so many times that of poses, the directions in which it is not
+ * chance; nothing, unless all of it is not. */
+static void keep_significant(const rlf_keyframe *key, int first, const double slope[3],
+                             double variance, double out[3])
+{
+    double c[4][4] = {{0.0}}, value[4], axis[4][4], sum = 0.0;
+    for (int i = 0; i < 3; i++) {
+        memcpy(c[i], key->spread[first + i] + first, 3 * sizeof(double));
+        out[i] = 0.0;
+    }
+    math_eigen(c, 3, value, axis);
+    for (int e = 0; e < 3; e++) {
+        const double v = slope[0] * axis[0][e] + slope[1] * axis[1][e] + slope[2] * axis[2][e];
+        const double squares = v * v / (value[e] * variance);
+        sum += squares;
+        for (int i = 0; i < 3 && squares > likely_1; i++) {
+            out[i] += v * axis[i][e];
+        }
+    }
+    if (sum < significant_3) {
+        memset(out, 0, 3 * sizeof(double));
+    }
+}
+
+/* The slope over as few frames as tell it well, or as many as it is a line. */
 static void measure_velocity(rlf_keyframe *key, int first)
 {
-    double best[3] = {0}, of_best = 0.0;
-    for (int32_t n = 2; n <= key->ring_count && of_best < precise_3; n++) {
-        double slope[3], variance, sum = 0.0;
+    double slope[3] = {0}, best[3] = {0}, variance, of_best = 1.0;
+    bool is_precise = false;
+    for (int32_t n = 2; n <= key->ring_count && !is_precise; n++) {
+        double length = 0.0, worst = 0.0;
         const double left = fit_line(key, first, n, slope, &variance);
         if (n >= LEAST_LINE && left > significant_3 + 3.0 * (n - 2)) {
             break;
         }
         for (int c = 0; c < 3; c++) {
-            sum += square_of(slope[c] / key->sigma[first + c]) / variance;
+            length += square_of(slope[c]);
+            worst = rlf_max(worst, key->spread[first + c][first + c]);
         }
+        is_precise = length > precise * worst * variance;
         memcpy(best, slope, sizeof(best));
-        of_best = sum;
+        of_best = variance;
     }
-    for (int c = 0; c < 3; c++) {
-        key->velocity[first + c] = of_best > significant_3 ? best[c] : 0.0;
-    }
+    keep_significant(key, first, best, of_best, key->velocity + first);
 }
 
 static void learn(const keyframe_frame *frame, const keyframe_fit *rest, const double x[6],
@@ -198,15 +223,15 @@ static void learn(const keyframe_frame *frame, const keyframe_fit *rest, const d
 static bool watch(const keyframe_frame *frame, double time_s, rlf_keyframe *key)
 {
     keyframe_fit fit = {.points = 0}, rest;
-    double change[6], sigma[6];
+    double change[6], spread[6][6];
     keyframe_look(frame, key, 0.0, &fit);
     rest = fit;
     keyframe_register(frame, key, &fit);
     for (int k = 0; k < 6; k++) {
         change[k] = fit.x[k] - key->x[k];
     }
-    const double same = keyframe_off(frame, key, &fit, change, sigma);
-    const double off = keyframe_off(frame, key, &fit, fit.x, sigma);
+    const double same = keyframe_off(frame, key, &fit, change, spread);
+    const double off = keyframe_off(frame, key, &fit, fit.x, spread);
     const double gain = rest.cost - fit.cost;
     const bool is_elsewhere = key->rests >= KEYFRAME_REST && off > significant_6 &&
                               gain > significant_6 && keyframe_agrees(key, &fit);
@@ -216,10 +241,10 @@ static bool watch(const keyframe_frame *frame, double time_s, rlf_keyframe *key)
         learn(frame, &rest, fit.x, key);
     }
     key->moved = (uint8_t)(key->moved << 1 | (is_elsewhere ? 1 : 0));
-    memcpy(key->sigma, sigma, sizeof(sigma));
+    memcpy(key->spread, spread, sizeof(spread));
     double way = 0.0;
     for (int c = 0; c < 3; c++) {
-        way += square_of(fit.x[c] / sigma[c]);
+        way += square_of(fit.x[c]) / spread[c][c];
     }
     key->ring_count = way < significant_3 ? 0 : key->ring_count; /* it has not yet begun */
     push(key, time_s, fit.x);
@@ -308,20 +333,33 @@ static void follow(const keyframe_frame *frame, double time_s, rlf_keyframe *key
         key->state = KEYFRAME_NONE;
         return;
     }
-    (void)keyframe_off(frame, key, &fit, fit.x, key->sigma);
+    (void)keyframe_off(frame, key, &fit, fit.x, key->spread);
     push(key, time_s, fit.x);
-    key->is_whole = key->has_stood || (key->ring_count >= LEAST_LINE &&
-                                       fit.agree >= whole_share * fit.points &&
+    key->is_whole = key->has_stood || (fit.agree >= whole_share * fit.points &&
                                        fit.rims_agree >= whole_share * fit.rims);
     measure_velocity(key, 0);
     measure_velocity(key, 3);
 }
 
-/* Of a region as it is now, if it has none. */
+/* The region's keyframe of the frame before, if it looks otherwise by now. */
+static const rlf_keyframe *find_left(const velocity_planes *state, int32_t label)
+{
+    for (int32_t i = 0; i < RLF_KEYFRAMES; i++) {
+        const rlf_keyframe *key = &state->keyframe[i];
+        if (key->state == KEYFRAME_NONE && key->label == label && key->is_whole) {
+            return key;
+        }
+    }
+    return NULL;
+}
+
+/* Of a region as it is now, if it has none: what it takes over goes on as it moved. */
 static void take_region(rlf_reconstruct *stage, const rlf_slot *slot, const rlf_region *region)
 {
     static const double none[6] = {0};
-    rlf_keyframe *key = find_free(&stage->velocity);
+    const rlf_keyframe *left = find_left(&stage->velocity, region->label);
+    rlf_keyframe *key = left != NULL ? &stage->velocity.keyframe[left - stage->velocity.keyframe]
+                                     : find_free(&stage->velocity);
     const rlf_rect rect = {region->x0, region->y0, region->x1, region->y1};
     const keyframe_view view = {&stage->grid,
                                 NULL,
@@ -331,12 +369,20 @@ static void take_region(rlf_reconstruct *stage, const rlf_slot *slot, const rlf_
                                 stage->work.raw,
                                 (const float *const *)slot->normal,
                                 rlf_kernel_noise_make(&stage->def.rig.noise)};
-    if (key != NULL && keyframe_of_region(stage, region->label) == NULL &&
-        keyframe_take(&view, &rect, region->point_count, key)) {
-        key->state = KEYFRAME_MOVES;
-        key->label = region->label;
-        push(key, 1e-9 * (double)slot->surface.time_ns, none);
+    rlf_keyframe before = {.state = KEYFRAME_NONE};
+    if (left != NULL) {
+        before = *left;
     }
+    if (key == NULL || keyframe_of_region(stage, region->label) != NULL ||
+        !keyframe_take(&view, &rect, region->point_count, key)) {
+        return;
+    }
+    key->state = KEYFRAME_MOVES;
+    key->label = region->label;
+    key->is_whole = before.is_whole;
+    key->has_stood = before.has_stood;
+    memcpy(key->velocity, before.velocity, sizeof(key->velocity));
+    push(key, 1e-9 * (double)slot->surface.time_ns, none);
 }
 
 void keyframes_follow(rlf_reconstruct *stage, const rlf_slot *slot)
@@ -347,10 +393,12 @@ void keyframes_follow(rlf_reconstruct *stage, const rlf_slot *slot)
         rlf_keyframe *key = &stage->velocity.keyframe[i];
         if (key->state == KEYFRAME_MOVES) {
             follow(&frame, time_s, key);
+        } else {
+            key->label = 0;
         }
         if (key->state == KEYFRAME_MOVES) {
             key->label = label_of(stage, slot, key);
-            key->state = key->label == 0 ? KEYFRAME_NONE : key->state;
+            key->state = key->label > 0 ? KEYFRAME_MOVES : KEYFRAME_NONE;
         }
     }
     for (int32_t r = 0; r < slot->foreground_region_count; r++) {

@@ -49,7 +49,7 @@ typedef struct rlf_keyframe {
     int32_t rests;   /* frames in its means */
     uint8_t moved;   /* a bit per frame, the newest lowest */
     double x[6];     /* pose now */
-    double sigma[6]; /* of it */
+    double spread[6][6]; /* its covariance */
     double scatter[6]; /* of poses at rest: mean squares */
     keyframe_pose ring[KEYFRAME_RING];
     int32_t ring_count;     /* the newest last */
@@ -101,9 +101,10 @@ void keyframe_look(const keyframe_frame *frame, const rlf_keyframe *key, double 
 bool keyframe_agrees(const rlf_keyframe *key, const keyframe_fit *fit);
 /* The pose that fits best, from fit->x on. */
 void keyframe_register(const keyframe_frame *frame, const rlf_keyframe *key, keyframe_fit *fit);
-/* Of the step that the rows of fit ask for: squares in units of its variance, 6 unknowns. */
+/* How far pose x of a fit is from rest: squares in units of its variance, 6 unknowns. `out`: the
+ * covariance of poses. */
 double keyframe_off(const keyframe_frame *frame, const rlf_keyframe *key, const keyframe_fit *fit,
-                    const double x[6], double sigma[6]);
+                    const double x[6], double out[6][6]);
 /* Pixel that sees a point of the keyframe in its pose; < 0 out of view. */
 ptrdiff_t keyframe_pixel(const image_grid *grid, const rlf_keyframe *key, const float p[3]);
 /* What a frame at rest shows goes into the means. */

@@ -14,10 +14,15 @@ enum { PASSES = 3, COARSE_PASSES = 6 };
 static const double rim_sigma_px = 0.4;
 /* Neighbouring pixels share noise, and windows share pixels: so many count as one. */
 static const double points_shared = 2.0, rims_shared = 3.0;
+/* An outline by one pixel in so many across the rows or columns is as any other; one along them
+ * tells so much of that. */
+static const double slant = 10.0, aligned = 0.1;
 /* A pose is no better than this, however many pixels tell it: errors that all of them share. */
 static const double shared_px = 0.15, shared_depth = 0.001;
 /* Prior of a pose: what nothing is seen of stays as it is, metres. */
 static const double loose_m = 0.02;
+/* A turn that is told by less than this share of all is chance: a disc's about its axis. */
+static const double held_share = 0.01;
 /* What is farther off is something else: it costs no more, as what is hidden does. */
 static const double sigmas = 3.0, most_squares = 9.0;
 
@@ -165,6 +170,14 @@ static bool rim_off(const keyframe_frame *frame, const placed *at, const keyfram
     return true;
 }
 
+/* Of what a rim tells. An outline that runs along rows or columns is seen to jump by whole pixels,
+ * all of it at once. */
+static double own_part(rlf_vec3 out)
+{
+    const double x = size_of(out.x), y = size_of(out.y);
+    return rlf_clamp(slant * rlf_min(x, y) / rlf_max(x, y), aligned, 1.0);
+}
+
 static void add_rim(const keyframe_frame *frame, const placed *at, const keyframe_rim *rim,
                     double slack, keyframe_fit *fit)
 {
@@ -183,7 +196,8 @@ static void add_rim(const keyframe_frame *frame, const placed *at, const keyfram
     const bool agrees = !is_full && pixels <= bound && pixels >= -bound;
     fit->rims_agree += agrees ? 1 : 0;
     if (agrees || slack > 0.0) {
-        add_row(fit, at->key, arm, out, pixels * footprint, 1.0 / (rims_shared * sigma * sigma));
+        add_row(fit, at->key, arm, out, pixels * footprint,
+                own_part(out) / (rims_shared * sigma * sigma));
     }
 }
 
@@ -203,16 +217,26 @@ void keyframe_look(const keyframe_frame *frame, const rlf_keyframe *key, double 
     }
 }
 
+/* The prior's information of each unknown, about the pose `start`. */
+static void priors(const keyframe_fit *fit, double out[6])
+{
+    const double turns = fit->a[3][3] + fit->a[4][4] + fit->a[5][5];
+    for (int k = 0; k < 6; k++) {
+        out[k] = rlf_max(1.0 / (loose_m * loose_m), k < 3 ? 0.0 : held_share * turns);
+    }
+}
+
 /* A step from fit->x; what nothing is seen of stays as it is in `start`. */
 static void step(const keyframe_frame *frame, const rlf_keyframe *key, const double start[6],
                  double slack, keyframe_fit *fit)
 {
-    double a[6][6], b[6], x[6];
+    double a[6][6], b[6], x[6], prior[6];
     keyframe_look(frame, key, slack, fit);
     memcpy(a, fit->a, sizeof(a));
+    priors(fit, prior);
     for (int k = 0; k < 6; k++) {
-        a[k][k] += 1.0 / (loose_m * loose_m);
-        b[k] = fit->b[k] + (start[k] - fit->x[k]) / (loose_m * loose_m);
+        a[k][k] += prior[k];
+        b[k] = fit->b[k] + prior[k] * (start[k] - fit->x[k]);
     }
     math_solve_six(a, b, x);
     for (int k = 0; k < 6; k++) {
@@ -249,25 +273,26 @@ bool keyframe_agrees(const rlf_keyframe *key, const keyframe_fit *fit)
            fit->agree >= agree_share * fit->points && fit->rims_agree >= agree_share * fit->rims;
 }
 
-/* x' (A^-1 + F)^-1 x, where F is what all rows share: A^-1 = C, by columns. */
+/* x' (A^-1 + F)^-1 x, where F is what all rows share; `out` is A^-1 with the scatter at rest. */
 double keyframe_off(const keyframe_frame *frame, const rlf_keyframe *key, const keyframe_fit *fit,
-                    const double x[6], double sigma[6])
+                    const double x[6], double out[6][6])
 {
-    double c[6][6], y[6], sum = 0.0;
+    double c[6][6], prior[6], y[6], sum = 0.0;
+    priors(fit, prior);
     for (int k = 0; k < 6; k++) {
         double a[6][6], unit[6] = {0};
         memcpy(a, fit->a, sizeof(a));
         for (int i = 0; i < 6; i++) {
-            a[i][i] += 1.0 / (loose_m * loose_m);
+            a[i][i] += prior[i];
         }
         unit[k] = 1.0;
-        math_solve_six(a, unit, c[k]);
+        math_solve_six(a, unit, out[k]);
+        out[k][k] += key->scatter[k];
     }
+    memcpy(c, out, sizeof(c));
     const double px = shared_px * key->centre.z / frame->grid->camera.fx;
     const double far = shared_depth * key->centre.z;
     for (int k = 0; k < 6; k++) {
-        c[k][k] += key->scatter[k];
-        sigma[k] = sqrt(c[k][k]);
         c[k][k] += k == 2 ? far * far + px * px : px * px;
     }
     math_solve_six(c, x, y);
