@@ -133,11 +133,12 @@ static void leave(rlf_reconstruct *stage, rlf_slot *slot, int32_t i)
 
 /* A pixel of no thing belongs to the ones beside it that have left, if no other is as deep: it is
  * at their outline, and not where they stand. */
-static bool is_outline(const rlf_reconstruct *stage, const uint8_t *departed, int32_t i)
+static bool is_outline(const rlf_reconstruct *stage, const float *depth, const uint8_t *departed,
+                       int32_t i)
 {
     int32_t own = 0, others = 0;
-    for (int32_t way = 0; way < 4 && stage->background.mean[i] > 0.0f; way++) {
-        uint8_t thing = thing_on(stage, stage->background.mean, i, way);
+    for (int32_t way = 0; way < 4 && depth[i] > 0.0f; way++) {
+        uint8_t thing = thing_on(stage, depth, i, way);
         own += departed[thing];
         others += thing != 0 && !departed[thing];
     }
@@ -149,8 +150,11 @@ static void leave_all(rlf_reconstruct *stage, rlf_slot *slot, const uint8_t *dep
 {
     const image_grid *grid = &stage->grid;
     uint8_t *thing = stage->background.depart.thing;
+    const float *mean = stage->background.mean;
     for (int32_t i = 0; i < grid->count; i++) {
-        if (departed[thing[i]] || (thing[i] == 0 && is_outline(stage, departed, i))) {
+        bool is_filled = slot->reason[i] == RLF_REASON_FILLED; /* as deep as the thing, it may be */
+        if (departed[thing[i]] || (thing[i] == 0 && is_outline(stage, mean, departed, i)) ||
+            (is_filled && is_outline(stage, slot->depth, departed, i))) {
             leave(stage, slot, i);
         }
     }
