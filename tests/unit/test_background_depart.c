@@ -123,7 +123,8 @@ static void what_creeps_has_its_velocity(void **state)
     analytic_random random = {7};
     const double speed = 0.1 * 30.0 * plate / rig.depth.fx;
     int told = -1;
-    for (int k = 0; k < 300; k++) { /* for most of that it stands, and nothing else does otherwise */
+    for (int k = 0; k < 300;
+         k++) { /* for most of that it stands, and nothing else does otherwise */
         const double way = k < 240 ? 0.0 : 0.1 * (k - 240);
         const rlf_surface *s = show_plate(stage, k, way, &random);
         assert_true(k >= 240 || s->foreground_count == 0);

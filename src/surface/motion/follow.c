@@ -62,7 +62,8 @@ void keyframes_take_things(rlf_reconstruct *stage)
         rlf_keyframe *key = &state->keyframe[i];
         int32_t found = 0;
         for (int32_t k = 1; k <= RLF_PIECES && key->state == KEYFRAME_RESTS && found == 0; k++) {
-            found = !state->is_taken[k] && is_like(key, &depart->extent[k], depart->size[k]) ? k : 0;
+            found =
+                !state->is_taken[k] && is_like(key, &depart->extent[k], depart->size[k]) ? k : 0;
         }
         key->state = key->state == KEYFRAME_RESTS && found == 0 ? KEYFRAME_NONE : key->state;
         key->thing = found;

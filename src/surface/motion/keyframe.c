@@ -170,8 +170,7 @@ static void centre(rlf_keyframe *key)
     }
 }
 
-bool keyframe_take(const keyframe_view *view, const rlf_rect *rect, int32_t size,
-                   rlf_keyframe *out)
+bool keyframe_take(const keyframe_view *view, const rlf_rect *rect, int32_t size, rlf_keyframe *out)
 {
     memset(out, 0, sizeof(*out));
     int32_t step = 1;

@@ -46,17 +46,17 @@ typedef struct rlf_keyframe {
     keyframe_point point[KEYFRAME_POINTS];
     keyframe_rim rim[KEYFRAME_RIMS];
     int32_t point_count, rim_count;
-    int32_t rests;   /* frames in its means */
-    uint8_t moved;   /* a bit per frame, the newest lowest */
-    double x[6];     /* pose now */
+    int32_t rests;       /* frames in its means */
+    uint8_t moved;       /* a bit per frame, the newest lowest */
+    double x[6];         /* pose now */
     double spread[6][6]; /* its covariance */
-    double scatter[6]; /* of poses at rest: mean squares */
+    double scatter[6];   /* of poses at rest: mean squares */
     keyframe_pose ring[KEYFRAME_RING];
-    int32_t ring_count;     /* the newest last */
-    double velocity[6];     /* of the pose, per second; 0 = not significant */
-    double told[3];         /* the way that it made before it was told */
-    bool is_whole;          /* it is of one piece ... */
-    bool has_stood;         /* ... for it stood in the background */
+    int32_t ring_count; /* the newest last */
+    double velocity[6]; /* of the pose, per second; 0 = not significant */
+    double told[3];     /* the way that it made before it was told */
+    bool is_whole;      /* it is of one piece ... */
+    bool has_stood;     /* ... for it stood in the background */
 } rlf_keyframe;
 
 /* What a keyframe is taken of: where `thing`, or if that is NULL `label`, is `number`. */
@@ -79,12 +79,12 @@ bool keyframe_take(const keyframe_view *view, const rlf_rect *rect, int32_t size
 /* ---- register.c ---- */
 /* How a keyframe fits a frame. */
 typedef struct keyframe_fit {
-    double x[6];           /* the pose */
-    double a[6][6];        /* its information, lower triangle */
+    double x[6];    /* the pose */
+    double a[6][6]; /* its information, lower triangle */
     double b[6];
-    double cost;           /* squares of all rows, each no more than what is hidden costs */
-    int32_t points, rims;             /* seen: neither hidden nor without depth */
-    int32_t agree, rims_agree;        /* of them */
+    double cost;               /* squares of all rows, each no more than what is hidden costs */
+    int32_t points, rims;      /* seen: neither hidden nor without depth */
+    int32_t agree, rims_agree; /* of them */
     int32_t hidden, rims_hidden;
 } keyframe_fit;
 

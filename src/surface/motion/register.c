@@ -41,8 +41,7 @@ static placed place(const rlf_keyframe *key, const double x[6])
 {
     placed out = {.key = key};
     const double s = 1.0 / key->length;
-    const rlf_quat q =
-        rlf_quat_from_rotation_vector(rlf_vec3_make(s * x[3], s * x[4], s * x[5]));
+    const rlf_quat q = rlf_quat_from_rotation_vector(rlf_vec3_make(s * x[3], s * x[4], s * x[5]));
     for (int c = 0; c < 3; c++) {
         const rlf_vec3 axis = {c == 0, c == 1, c == 2}, to = rlf_rotate(q, axis);
         out.r[0][c] = to.x;
@@ -254,7 +253,8 @@ void keyframe_register(const keyframe_frame *frame, const rlf_keyframe *key, key
         step(frame, key, start, 0.0, fit);
     }
     keyframe_look(frame, key, 0.0, fit);
-    if (fit->agree >= sure_share * key->point_count && fit->rims_agree >= sure_share * key->rim_count) {
+    if (fit->agree >= sure_share * key->point_count &&
+        fit->rims_agree >= sure_share * key->rim_count) {
         return;
     }
     for (int pass = 0; pass < COARSE_PASSES; pass++) { /* it may be farther off */
@@ -269,8 +269,9 @@ void keyframe_register(const keyframe_frame *frame, const rlf_keyframe *key, key
 
 bool keyframe_agrees(const rlf_keyframe *key, const keyframe_fit *fit)
 {
-    return fit->points >= seen_share * key->point_count && fit->rims >= seen_share * key->rim_count &&
-           fit->agree >= agree_share * fit->points && fit->rims_agree >= agree_share * fit->rims;
+    return fit->points >= seen_share * key->point_count &&
+           fit->rims >= seen_share * key->rim_count && fit->agree >= agree_share * fit->points &&
+           fit->rims_agree >= agree_share * fit->rims;
 }
 
 /* x' (A^-1 + F)^-1 x, where F is what all rows share; `out` is A^-1 with the scatter at rest. */

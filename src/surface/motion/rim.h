@@ -3,10 +3,10 @@
 #ifndef RLF_SURFACE_MOTION_RIM_H
 #define RLF_SURFACE_MOTION_RIM_H
 
-#include "kernel/flow.h"
+#include "kernel/kernel.h"
 #include "surface/frame.h"
 
-enum { RIM_RADIUS = RLF_CONTOUR_RADIUS, RIM_SIDE = RLF_CONTOUR_SIDE };
+enum { RIM_RADIUS = 3, RIM_SIDE = 2 * RIM_RADIUS + 1 }; /* of a window, pixels */
 
 /* Metres beyond a thing that what is behind it is at least. */
 #define RIM_GAP_M 0.05
