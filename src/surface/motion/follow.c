@@ -31,7 +31,6 @@ void keyframes_reset(velocity_planes *state)
 static const double precise = 400.0;
 /* Radians: from there on a thing looks otherwise. */
 static const double most_turn = 0.436;
-static const double longest_gap_s = 0.2;
 /* So much of what is seen agrees with one motion: it is of one piece, and nobody who holds his arms
  * still. */
 static const double whole_share = 0.9;
@@ -322,9 +321,8 @@ static void follow(const keyframe_frame *frame, double time_s, rlf_keyframe *key
 {
     keyframe_fit fit = {.points = 0};
     const double dt = time_s - key->ring[key->ring_count - 1].time_s;
-    if (!(dt > 0.0) || dt > longest_gap_s) {
-        key->state = dt == 0.0 ? key->state : KEYFRAME_NONE;
-        return;
+    if (dt == 0.0) {
+        return; /* it has just started */
     }
     for (int k = 0; k < 6; k++) {
         fit.x[k] = key->x[k] + key->velocity[k] * dt;
@@ -386,15 +384,63 @@ static void take_region(rlf_reconstruct *stage, const rlf_slot *slot, const rlf_
     push(key, 1e-9 * (double)slot->surface.time_ns, none);
 }
 
-void keyframes_follow(rlf_reconstruct *stage, const rlf_slot *slot)
+static void turn(const rlf_quat *q, double v[3])
+{
+    const rlf_vec3 to = rlf_rotate(*q, rlf_vec3_make(v[0], v[1], v[2]));
+    v[0] = to.x;
+    v[1] = to.y;
+    v[2] = to.z;
+}
+
+static void turn_float(const rlf_quat *q, float v[3])
+{
+    double to[3] = {v[0], v[1], v[2]};
+    turn(q, to);
+    for (int c = 0; c < 3; c++) {
+        v[c] = (float)to[c];
+    }
+}
+
+static void carry(const rlf_pose *T, rlf_keyframe *key)
+{
+    for (int32_t k = 0; k < key->point_count; k++) {
+        turn_float(&T->q, key->point[k].p);
+        turn_float(&T->q, key->point[k].n);
+    }
+    for (int32_t k = 0; k < key->rim_count; k++) {
+        turn_float(&T->q, key->rim[k].p);
+        turn_float(&T->q, key->rim[k].n);
+        turn_float(&T->q, key->rim[k].out);
+    }
+    for (int first = 0; first < 6; first += 3) {
+        for (int32_t k = 0; k < key->ring_count; k++) {
+            turn(&T->q, key->ring[k].x + first);
+        }
+        turn(&T->q, key->x + first);
+        turn(&T->q, key->velocity + first);
+    }
+    key->centre = rlf_transform(T, key->centre);
+}
+
+void keyframes_carry(velocity_planes *state, const rlf_pose *T_now_before)
+{
+    for (int32_t i = 0; i < RLF_KEYFRAMES; i++) {
+        if (state->keyframe[i].state == KEYFRAME_MOVES) {
+            carry(T_now_before, &state->keyframe[i]);
+        }
+    }
+}
+
+void keyframes_follow(rlf_reconstruct *stage, const rlf_slot *slot, bool is_gap)
 {
     const keyframe_frame frame = frame_of(stage);
     const double time_s = 1e-9 * (double)slot->surface.time_ns;
     for (int32_t i = 0; i < RLF_KEYFRAMES; i++) {
         rlf_keyframe *key = &stage->velocity.keyframe[i];
-        if (key->state == KEYFRAME_MOVES) {
+        if (key->state == KEYFRAME_MOVES && !is_gap) {
             follow(&frame, time_s, key);
         } else {
+            key->state = key->state == KEYFRAME_RESTS ? KEYFRAME_RESTS : KEYFRAME_NONE;
             key->label = 0;
         }
         if (key->state == KEYFRAME_MOVES) {

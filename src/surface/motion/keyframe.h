@@ -115,8 +115,10 @@ void keyframes_reset(velocity_planes *state);
 /* Those that rest in the background. `departed`, RLF_PIECES + 1: 1 of its things that move from now
  * on. */
 void keyframes_watch(rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *departed);
-/* Those of the foreground's regions. */
-void keyframes_follow(rlf_reconstruct *stage, const rlf_slot *slot);
+/* The camera has moved: what follows is seen by this frame's. */
+void keyframes_carry(velocity_planes *state, const rlf_pose *T_now_before);
+/* Those of the foreground's regions. `is_gap`: nothing can be followed from the frame before. */
+void keyframes_follow(rlf_reconstruct *stage, const rlf_slot *slot, bool is_gap);
 /* Keyframes of the background's things, which have just been found anew. */
 void keyframes_take_things(rlf_reconstruct *stage);
 /* The region's motion by its keyframe; NULL: it has none. */

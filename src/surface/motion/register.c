@@ -24,7 +24,7 @@ static const double loose_m = 0.02;
 /* A turn that is told by less than this share of all is chance: a disc's about its axis. */
 static const double held_share = 0.01;
 /* What is farther off is something else: it costs no more, as what is hidden does. */
-static const double sigmas = 3.0, most_squares = 9.0;
+static const double sigmas = 3.0;
 
 /* Of what is seen so much agrees with a motion; and of the keyframe so much is seen. */
 static const double agree_share = 0.6, seen_share = 0.4;
@@ -111,7 +111,7 @@ static bool point_off(const keyframe_frame *frame, rlf_vec3 p, rlf_vec3 n, doubl
 /* Of the squares that a row costs at most, what it does not cost. */
 static double squares_left(double x)
 {
-    return rlf_max(most_squares - x * x, 0.0);
+    return rlf_max(sigmas * sigmas - x * x, 0.0);
 }
 
 static void add_point(const keyframe_frame *frame, const placed *at, const keyframe_point *point,
@@ -207,7 +207,7 @@ void keyframe_look(const keyframe_frame *frame, const rlf_keyframe *key, double 
     memset(fit->a, 0, sizeof(fit->a));
     memset(fit->b, 0, sizeof(fit->b));
     fit->points = fit->rims = fit->agree = fit->rims_agree = fit->hidden = fit->rims_hidden = 0;
-    fit->cost = most_squares * (key->point_count / points_shared + key->rim_count / rims_shared);
+    fit->cost = sigmas * sigmas * (key->point_count / points_shared + key->rim_count / rims_shared);
     for (int32_t k = 0; k < key->point_count; k++) {
         add_point(frame, &at, &key->point[k], slack, fit);
     }

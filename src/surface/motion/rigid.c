@@ -364,8 +364,9 @@ void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot)
     const rlf_slot *before = stage->previous;
     clear_velocity(&stage->grid, slot);
     double dt = 1e-9 * (double)rlf_stage_elapsed_ns(stage, slot);
-    keyframes_follow(stage, slot);
-    if (!(dt > 0.0) || dt > longest_gap_s || slot->foreground_region_count == 0) {
+    const bool is_gap = !(dt > 0.0) || dt > longest_gap_s;
+    keyframes_follow(stage, slot, is_gap);
+    if (is_gap || slot->foreground_region_count == 0) {
         return;
     }
     const rlf_flow job = {
