@@ -1,4 +1,4 @@
-/* What stood since the first frame and starts to move: its keyframe tells (motion/follow.c). Most
+/* What stood since the first frame and starts to move: its keyframe tells (motion/watch.c). Most
  * of it shows the background's depth still: a box that is pushed differs at two of its edges alone.
  * So a whole thing of the background (thickness/static_pieces.c) becomes foreground at once, and
  * the background has nothing there until it is seen past: no solid stays where it was. */

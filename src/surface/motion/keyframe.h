@@ -54,7 +54,6 @@ typedef struct rlf_keyframe {
     keyframe_pose ring[KEYFRAME_RING];
     int32_t ring_count; /* the newest last */
     double velocity[6]; /* of the pose, per second; 0 = not significant */
-    double told[3];     /* the way that it made before it was told */
     bool is_whole;      /* it is of one piece ... */
     bool has_stood;     /* ... for it stood in the background */
 } rlf_keyframe;
@@ -85,7 +84,6 @@ typedef struct keyframe_fit {
     double cost;               /* squares of all rows, each no more than what is hidden costs */
     int32_t points, rims;      /* seen: neither hidden nor without depth */
     int32_t agree, rims_agree; /* of them */
-    int32_t hidden, rims_hidden;
 } keyframe_fit;
 
 typedef struct keyframe_frame {
@@ -110,17 +108,27 @@ ptrdiff_t keyframe_pixel(const image_grid *grid, const rlf_keyframe *key, const 
 /* What a frame at rest shows goes into the means. */
 void keyframe_learn(const keyframe_frame *frame, rlf_keyframe *key);
 
-/* ---- follow.c ---- */
-void keyframes_reset(velocity_planes *state);
+/* ---- line.c ---- */
+/* The pose x is the newest. */
+void keyframe_push(rlf_keyframe *key, double time_s, const double x[6]);
+void keyframe_measure_velocity(rlf_keyframe *key);
+
+/* ---- watch.c ---- */
+/* Keyframes of the background's things, which have just been found anew. */
+void keyframes_take_things(rlf_reconstruct *stage);
 /* Those that rest in the background. `departed`, RLF_PIECES + 1: 1 of its things that move from now
  * on. */
 void keyframes_watch(rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *departed);
+
+/* ---- follow.c ---- */
+void keyframes_reset(velocity_planes *state);
+/* One that is of nothing; NULL: there is none. */
+rlf_keyframe *keyframe_find_free(velocity_planes *state);
+keyframe_frame keyframe_frame_of(const rlf_reconstruct *stage);
 /* The camera has moved: what follows is seen by this frame's. */
 void keyframes_carry(velocity_planes *state, const rlf_pose *T_now_before);
 /* Those of the foreground's regions. `is_gap`: nothing can be followed from the frame before. */
 void keyframes_follow(rlf_reconstruct *stage, const rlf_slot *slot, bool is_gap);
-/* Keyframes of the background's things, which have just been found anew. */
-void keyframes_take_things(rlf_reconstruct *stage);
 /* The region's motion by its keyframe; NULL: it has none. */
 const rlf_keyframe *keyframe_of_region(const rlf_reconstruct *stage, int32_t label);
 

@@ -124,9 +124,8 @@ static void add_point(const keyframe_frame *frame, const placed *at, const keyfr
     }
     off -= (double)point->bias;
     const double bound = slack + sigmas * sigma + 0.002;
-    if (off > bound) { /* the normal faces the camera: it is nearer */
-        fit->hidden++;
-        return;
+    if (off > bound) {
+        return; /* hidden: the normal faces the camera */
     }
     fit->points++;
     fit->cost -= squares_left(off / sigma) / points_shared;
@@ -185,7 +184,6 @@ static void add_rim(const keyframe_frame *frame, const placed *at, const keyfram
     double pixels;
     bool is_full;
     if (!rim_off(frame, at, rim, p, out, &pixels, &is_full)) {
-        fit->rims_hidden++;
         return;
     }
     const double footprint = p.z / frame->grid->camera.fx, sigma = rim_sigma_px * footprint;
@@ -206,7 +204,7 @@ void keyframe_look(const keyframe_frame *frame, const rlf_keyframe *key, double 
     const placed at = place(key, fit->x);
     memset(fit->a, 0, sizeof(fit->a));
     memset(fit->b, 0, sizeof(fit->b));
-    fit->points = fit->rims = fit->agree = fit->rims_agree = fit->hidden = fit->rims_hidden = 0;
+    fit->points = fit->rims = fit->agree = fit->rims_agree = 0;
     fit->cost = sigmas * sigmas * (key->point_count / points_shared + key->rim_count / rims_shared);
     for (int32_t k = 0; k < key->point_count; k++) {
         add_point(frame, &at, &key->point[k], slack, fit);
