@@ -265,7 +265,7 @@ static bool keyframe_motion(const rlf_keyframe *key, rlf_region *region, rlf_twi
 {
     out->centre = rlf_add(key->centre, rlf_vec3_make(key->x[0], key->x[1], key->x[2]));
     out->length = key->length;
-    out->reach = 2.0 * key->length;
+    out->reach = key->has_stood ? 2.0 * key->length : 0.0; /* a person may hold one pose, too */
     memcpy(out->x, key->velocity, sizeof(out->x));
     region->angular_velocity = rlf_twist_spin(out);
     region->linear_velocity = rlf_twist_velocity(out, region->centroid);
