@@ -276,18 +276,18 @@ static bool region_motion(const rlf_flow *job, rlf_region *region, rlf_twist *ou
 {
     const rlf_keyframe *key = keyframe_of_region(job->stage, region->label);
     *out = start_from(region, rlf_vec3_make(0, 0, 0));
-    if (key != NULL && key->is_whole) {
+    if (key != NULL && key->has_stood) {
         return keyframe_motion(key, region, out);
     }
     rlf_vec3 seen = centroid_velocity(job, region);
-    if (!is_moving(job, region, seen, out)) {
-        region->linear_velocity = seen;
-        memset(out->x, 0, sizeof(out->x));
-        return false;
+    if (is_moving(job, region, seen, out)) {
+        region->linear_velocity = rlf_vec3_make(out->x[0], out->x[1], out->x[2]);
+        region->angular_velocity = rlf_twist_spin(out);
+        return true;
     }
-    region->linear_velocity = rlf_vec3_make(out->x[0], out->x[1], out->x[2]);
-    region->angular_velocity = rlf_twist_spin(out);
-    return true;
+    *out = start_from(region, rlf_vec3_make(0, 0, 0));
+    region->linear_velocity = seen;
+    return key != NULL && key->is_whole && keyframe_motion(key, region, out);
 }
 
 /* Row y of the frame before, as far as something was in front: or was taken for background then,
