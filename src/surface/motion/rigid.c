@@ -276,7 +276,8 @@ static bool region_motion(const rlf_flow *job, rlf_region *region, rlf_twist *ou
 {
     const rlf_keyframe *key = keyframe_of_region(job->stage, region->label);
     *out = start_from(region, rlf_vec3_make(0, 0, 0));
-    if (key != NULL && key->has_stood) {
+    const bool is_proven = key != NULL && key->is_whole && key->ring_count == KEYFRAME_RING;
+    if (is_proven || (key != NULL && key->has_stood)) {
         return keyframe_motion(key, region, out);
     }
     rlf_vec3 seen = centroid_velocity(job, region);
