@@ -117,29 +117,6 @@ void rlf_kernel_flow_row(const rlf_kernel_flow *restrict flow, const float *rest
                          const float *restrict ray_x, const float *restrict ray_y, int32_t count,
                          float *const velocity[3]);
 
-/* ---- contour_window.c: outlines of regions, see surface/motion/contour.c
- * --------------------------------------------------- */
-
-#define RLF_CONTOUR_RADIUS 3 /* of a window, pixels */
-#define RLF_CONTOUR_SIDE (1 + 2 * RLF_CONTOUR_RADIUS)
-
-/* Planes of an image from a row's first pixel on; the rows above and below are inside. */
-typedef struct rlf_kernel_contour_in {
-    const uint8_t *foreground;
-    const float *depth;
-    ptrdiff_t width; /* of the image */
-    float least;     /* metres from a pixel to what is behind it */
-} rlf_kernel_contour_in;
-
-/* Not 0 for pixels beside one that shows the background behind them; reads a pixel more on both
- * sides. */
-void rlf_kernel_contour_row(const rlf_kernel_contour_in *in, int32_t count,
-                            uint8_t *restrict is_contour);
-/* The region's pixels in the window about (x, y), which is inside the image of labels, at least
- * RLF_CONTOUR_SIDE + 1 pixels wide, and the sums of their steps from there: count, x, y. */
-void rlf_kernel_contour_window(const int32_t *label, int32_t width, int32_t own, int32_t x,
-                               int32_t y, int32_t out[3]);
-
 /* ---- rest_count.c: regions that rest, see surface/motion/rigid.c
  * --------------------------------------------------- */
 

@@ -1,5 +1,6 @@
 /* The surface stage: one frame through all steps into the next slot of the ring. */
 #include "surface/depth/depth.h"
+#include "surface/motion/keyframe.h"
 #include "surface/objects/objects.h"
 #include "surface/steps.h"
 #include "surface/thickness/static.h"
@@ -70,6 +71,7 @@ void rlf_reconstruct_reset(rlf_reconstruct *stage)
     rlf_sight_reset(&stage->sight);
     rlf_background_reset(&stage->background, &stage->grid);
     static_reset(&stage->background.thick);
+    keyframes_reset(&stage->velocity);
     temporal_reset(&stage->temporal, &stage->grid);
     normals_reset(&stage->normals, &stage->grid);
     rlf_objects_reset(stage->objects, stage->grid.count);

@@ -205,47 +205,6 @@ static void move_row_is_its_definition(void **state)
     }
 }
 
-/* Windows at every place of an image of a few regions, also where a row of eight would end beyond
- * it, and outlines before a background. */
-static void contours_are_their_definition(void **state)
-{
-    (void)state;
-    enum { WIDTH = 19, HEIGHT = 15, R = RLF_CONTOUR_RADIUS, OWN = 3 };
-    int32_t label[WIDTH * HEIGHT];
-    uint8_t foreground[WIDTH * HEIGHT], is_contour[WIDTH];
-    float depth[WIDTH * HEIGHT];
-    analytic_random r = {5};
-    for (int32_t i = 0; i < WIDTH * HEIGHT; i++) {
-        label[i] = 1 + (int32_t)(4.0 * random_uniform(&r));
-        foreground[i] = random_uniform(&r) < 0.7;
-        depth[i] = random_uniform(&r) < 0.3 ? 0.0f : 2.0f + (float)random_uniform(&r);
-    }
-    for (int32_t y = R; y < HEIGHT - R; y++) {
-        ptrdiff_t row = (ptrdiff_t)y * WIDTH;
-        const rlf_kernel_contour_in in = {foreground + row + R, depth + row + R, WIDTH, 0.3f};
-        rlf_kernel_contour_row(&in, WIDTH - 2 * R, is_contour);
-        for (int32_t x = R; x < WIDTH - R; x++) {
-            int32_t expected[3] = {0, 0, 0}, found[3];
-            for (int32_t k = 0; k < RLF_CONTOUR_SIDE * RLF_CONTOUR_SIDE; k++) {
-                int32_t dx = k % RLF_CONTOUR_SIDE - R, dy = k / RLF_CONTOUR_SIDE - R;
-                int32_t is = label[row + x + dy * WIDTH + dx] == OWN;
-                expected[0] += is;
-                expected[1] += is * dx;
-                expected[2] += is * dy;
-            }
-            rlf_kernel_contour_window(label, WIDTH, OWN, x, y, found);
-            assert_memory_equal(found, expected, sizeof found);
-            const ptrdiff_t step[4] = {-1, 1, -WIDTH, WIDTH};
-            bool is_beside = false;
-            for (int k = 0; k < 4; k++) {
-                ptrdiff_t n = row + x + step[k];
-                is_beside |= foreground[n] == 0 && depth[n] > depth[row + x] + 0.3f;
-            }
-            assert_int_equal(is_contour[x - R] != 0, is_beside);
-        }
-    }
-}
-
 /* The definition: pixels that are the region's, and those of them that are where they were. */
 static void count_rest(const rlf_kernel_rest_in *in, int32_t out[2])
 {
@@ -346,7 +305,6 @@ int main(void)
         cmocka_unit_test(spread_row_is_its_definition),
         cmocka_unit_test(flow_row_is_its_definition),
         cmocka_unit_test(move_row_is_its_definition),
-        cmocka_unit_test(contours_are_their_definition),
         cmocka_unit_test(rest_count_is_its_definition),
         cmocka_unit_test(knots_are_their_definition),
         cmocka_unit_test(flow_residuals_are_distances),

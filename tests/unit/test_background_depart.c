@@ -94,9 +94,56 @@ static void what_is_touched_stays_background(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
+/* Half the side of a plate, which is turned in the image, and its distance. */
+static const double half = 18.0, turned = 0.35, plate = 1.4;
+
+/* The plate, moved by a part of a pixel; with the rig's noise. */
+static const rlf_surface *show_plate(rlf_reconstruct *stage, int frame, double x,
+                                     analytic_random *random)
+{
+    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    const double c = rlf_cos(turned), n = rlf_sin(turned);
+    for (int i = 0; i < COUNT; i++) {
+        const double u = i % WIDTH - 70.0 - x, v = i / WIDTH - 60.0;
+        const double a = c * u + n * v, b = c * v - n * u;
+        const double z = a < half && a > -half && b < half && b > -half ? plate : (double)WALL;
+        const double sigma = rlf_depth_noise_sigma(&rig.noise, z);
+        depth[i] = (float)(z + sigma * random_normal(random));
+    }
+    return seen_depth_process(&rig, depth, stage, frame);
+}
+
+/* Along the image, by a tenth of a pixel per frame: less than any frame's noise. */
+static void what_creeps_has_its_velocity(void **state)
+{
+    (void)state;
+    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
+    rlf_reconstruct *stage = seen_view_stage(&def);
+    analytic_random random = {7};
+    const double speed = 0.1 * 30.0 * plate / rig.depth.fx;
+    int told = -1;
+    for (int k = 0; k < 300;
+         k++) { /* for most of that it stands, and nothing else does otherwise */
+        const double way = k < 240 ? 0.0 : 0.1 * (k - 240);
+        const rlf_surface *s = show_plate(stage, k, way, &random);
+        assert_true(k >= 240 || s->foreground_count == 0);
+        told = told < 0 && s->foreground_count > 900 ? k : told;
+        if (k >= 275) {
+            assert_int_equal(s->regions[s->region_count - 1].layer, RLF_LAYER_FOREGROUND);
+            const rlf_vec3 v = s->regions[s->region_count - 1].linear_velocity;
+            assert_true(rlf_length(rlf_sub(v, rlf_vec3_make(speed, 0, 0))) < 0.3 * speed);
+        }
+    }
+    print_message("at %.0f mm/s: told after %d frames\n", 1e3 * speed, told - 240);
+    assert_in_range(told, 240, 270);
+    rlf_reconstruct_destroy(&stage);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_creeps_has_its_velocity),
         cmocka_unit_test(what_goes_aside_is_foreground_whole),
         cmocka_unit_test(what_comes_nearer_leaves_nothing_behind_it),
         cmocka_unit_test(what_is_touched_stays_background),

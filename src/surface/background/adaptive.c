@@ -5,6 +5,7 @@
  * Furniture that was moved: what stands nearer than the background and still for long enough
  * becomes background. What it hides is kept beneath it, and comes back at once when it is seen
  * again. */
+#include "surface/motion/keyframe.h"
 #include "surface/steps.h"
 #include "surface/window.h"
 
@@ -210,6 +211,7 @@ static void start_anew(rlf_reconstruct *stage)
 {
     int32_t newest = stage->background.newest;
     rlf_background_reset(&stage->background, &stage->grid);
+    keyframes_reset(&stage->velocity);
     stage->background.newest = newest;
     stage->background.is_stale = newest >= 0;
 }

@@ -128,7 +128,6 @@ void background_allocate(rlf_background *background, rlf_arena *arena,
     background->seen = arena_lend(arena, n, 1);
     background->empty = arena_lend(arena, n, 1);
     background->up = arena_lend(arena, n, sizeof(int32_t));
-    background->depart.lost = arena_lend(arena, n, 1);
     if (static_is_wanted(def)) {
         background->depart.thing = arena_take(arena, n, 1);
         background->depart.depth = arena_take(arena, n, sizeof(float));

@@ -1,5 +1,6 @@
 /* The background of a camera that moves: someone who knows where it is tells what stands behind
  * each pixel (a map's prediction). Nothing is remembered per pixel here. */
+#include "surface/motion/keyframe.h"
 #include "surface/steps.h"
 
 #include "kernel/kernel.h"
@@ -93,6 +94,9 @@ void background_given_update(rlf_reconstruct *stage, rlf_slot *slot)
     }
     if (stage->before != NULL && room.has_before) {
         motion_carry(stage, &room.T_now_before);
+        keyframes_carry(&stage->velocity, &room.T_now_before);
+    } else {
+        keyframes_reset(&stage->velocity);
     }
     given_job job = {stage, slot, take_room(stage, &room), (float)room.slack_m};
     rlf_parallel_for(def->pool, stage->grid.height, RLF_ROW_GRAIN, test_rows, &job);

@@ -12,7 +12,6 @@ typedef struct rlf_depart {
     uint8_t *left;  /* plane: 1 where the mean is of something that moves: no background */
     rlf_rect extent[RLF_PIECES + 1]; /* of each thing, from 1 ... */
     int32_t size[RLF_PIECES + 1];    /* ... and its pixels */
-    uint8_t *lost;                   /* plane, scratch: a thing may have left here */
     bool is_urgent;                  /* something has left in this frame */
 } rlf_depart;
 

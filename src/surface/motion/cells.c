@@ -342,6 +342,12 @@ static void search(const rlf_cell_grid *g, const samples *all, cell_fit *fit)
     }
 }
 
+static bool is_sure_at(const rlf_twist *t, const float p[3])
+{
+    const rlf_vec3 off = rlf_sub(rlf_vec3_make(p[0], p[1], p[2]), t->centre);
+    return rlf_length(off) < t->reach;
+}
+
 static void fit_cell(const rlf_cell_grid *g, const samples *all, const rlf_cell *left,
                      rlf_cell *cell)
 {
@@ -353,7 +359,9 @@ static void fit_cell(const rlf_cell_grid *g, const samples *all, const rlf_cell 
     whole_velocity(g, p, whole);
     cell_fit fit = {.cost_still = cost_of(g, all, rest, INFINITY)};
     fit.cost_whole = g->moves ? cost_of(g, all, whole, INFINITY) : fit.cost_still;
-    if (fit.cost_whole <= all->variance * (float)all->count) { /* no more than the noise */
+    /* no more than the noise; or what a keyframe tells, where nothing speaks against it */
+    float least = is_sure_at(g->twist, p) ? 0.75f * all->limit : all->variance;
+    if (fit.cost_whole <= least * (float)all->count) {
         cell->state = g->moves ? RLF_CELL_WHOLE : RLF_CELL_STILL;
         copy(whole, cell->velocity);
         return;

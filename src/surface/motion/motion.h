@@ -1,4 +1,4 @@
-/* What the two ways to find velocity share. */
+/* What the ways to find velocity share. */
 #ifndef RLF_SURFACE_MOTION_MOTION_H
 #define RLF_SURFACE_MOTION_MOTION_H
 
@@ -23,8 +23,7 @@ typedef struct rlf_twist {
     double explained, noise; /* squared speeds */
     int32_t stride;          /* every stride-th pixel of every stride-th row is looked at */
     int32_t samples, inliers;
-    int32_t contour_samples, contour_inliers; /* of the contour */
-    double contour_excess;                    /* sum of squares in units of their sigma */
+    double reach; /* metres about the centre within which a keyframe tells it; 0 = none does */
 } rlf_twist;
 
 /* Angular velocity, and with it the velocity at p. */
@@ -73,37 +72,6 @@ void rlf_velocity_cells(const rlf_flow *job, const rlf_region *region, const rlf
 
 /* motion/write.c: writes the velocity of the region's pixels. */
 void rlf_cells_write(rlf_cell_grid *g);
-
-/* A pixel at a region's contour before a background that is farther: see motion/contour.c. */
-typedef struct rlf_contour_point {
-    ptrdiff_t i;
-    int32_t count;                            /* of the region's pixels in a window about it */
-    float out_x, out_y;                       /* unit, in the image, out of the region */
-    float per_pixel;                          /* change of count for a pixel's step outwards */
-    int32_t before_x, before_y, before_count; /* the window a frame ago that was asked for last */
-} rlf_contour_point;
-
-enum { RLF_CONTOUR_MAX = 128 };
-
-typedef struct rlf_contour {
-    rlf_contour_point point[RLF_CONTOUR_MAX];
-    int32_t count;
-    int32_t seen, step; /* pixels of the contour; every step-th is taken */
-} rlf_contour;
-
-/* Marks in velocity.is_contour what may be the regions' outlines, within the rows' spans
- * slot->moved.
- */
-void rlf_contour_mark(const rlf_flow *job);
-/* Some of the region's outline, evenly; from the marks. */
-void rlf_contour_find(const rlf_flow *job, const rlf_region *region, rlf_contour *out);
-/* Speed of the outline at p, the rim's point, beyond v along rlf_contour_direction. False out of
- * view.
- */
-bool rlf_contour_beyond(const rlf_flow *job, int32_t label, rlf_contour_point *point, rlf_vec3 p,
-                        rlf_vec3 v, double *out);
-/* Unit, square to the contour and to the ray. */
-rlf_vec3 rlf_contour_direction(const rlf_contour_point *point, rlf_vec3 p);
 
 static const float rlf_flow_fastest = 5.0f; /* m/s */
 /* Half of a limb's breadth: within a window, what is farther off is another limb; a limb that is so

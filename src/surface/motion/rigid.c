@@ -1,11 +1,13 @@
 /* Velocity of the front sheet from the change of depth.
  *
- * A surface that moves with velocity v meets the frame before, taken back by v dt: along the normal
- * n the two must not differ. What moves along itself shows that at its contour only
- * (motion/contour.c). Over a region that moves as one rigid thing this gives all six
- * unknowns of its twist (least squares with a weak prior). A region that is not rigid is fitted
- * cell by cell (motion/cells.c). What is not significant against the sensor's noise is exactly 0.
+ * A region that is of one piece moves as its keyframe does (motion/follow.c). Any other is compared
+ * with the frame before: a surface that moves with velocity v meets that, taken back by v dt: along
+ * the normal n the two must not differ. Over a region that moves as one rigid thing this gives all
+ * six unknowns of its twist (least squares with a weak prior). Then it is fitted cell by cell
+ * (motion/cells.c). What is not significant against the sensor's noise is exactly 0.
  */
+#include "surface/motion/keyframe.h"
+#include "surface/motion/keyframe.h"
 #include "surface/motion/motion.h"
 
 #include "math/solve_six.h"
@@ -19,14 +21,6 @@ static const double longest_gap_s = 0.2;
 static const double normal_error = 0.05;
 /* Squared sum of 6 normal variables that chance exceeds once in 400 times. */
 static const float significant_6 = 20.1f;
-/* How well a window's pixels place a contour, pixels. */
-static const double contour_sigma_px = 0.4;
-/* Where contours count the ridge is less: few pixels of them tell all that is known. */
-static const double contour_ridge = 0.002;
-/* Of squares in units of that sigma: a straight edge along the pixels is off by up to half a pixel,
- * now and before. */
-static const double contour_excess = 1.5;
-
 /* The published planes hold only what was written into the slot three frames ago. */
 static void clear_velocity(const image_grid *grid, rlf_slot *slot)
 {
@@ -74,19 +68,12 @@ static double tolerated(const rlf_flow *job, ptrdiff_t i, double facing, double 
     return 3.0 * 1.41421356 * sigma * facing + normal_error * speed;
 }
 
-static int32_t agreeing(const rlf_twist *t)
-{
-    return t->inliers + t->contour_inliers;
-}
-
 /* Normal equations of a step of Gauss and Newton. */
 typedef struct twist_sum {
     const rlf_flow *job;
     const rlf_region *region;
-    rlf_contour *contour;
-    double slack;          /* widens what agrees while the motion is still far off */
-    double contour_weight; /* 0: the contour only says how far off it is */
-    double speed;          /* of the motion so far */
+    double slack; /* widens what agrees while the motion is still far off */
+    double speed; /* of the motion so far */
     double a[6][6], b[6];
 } twist_sum;
 
@@ -124,34 +111,11 @@ static void add_pixel(twist_sum *sum, rlf_twist *t, ptrdiff_t i)
     }
 }
 
-static void add_contour_point(twist_sum *sum, rlf_twist *t, rlf_contour_point *point)
-{
-    const rlf_flow *job = sum->job;
-    rlf_vec3 p = rlf_flow_point(&job->stage->grid, job->now->depth, point->i);
-    double off;
-    t->contour_samples++;
-    if (!rlf_contour_beyond(job, sum->region->label, point, p, rlf_twist_velocity(t, p), &off)) {
-        return;
-    }
-    double depth_sigma = rlf_kernel_sigma(job->noise, job->now->depth[point->i]);
-    double sigma = contour_sigma_px * p.z / job->stage->grid.camera.fx;
-    double weight = sum->contour_weight * depth_sigma * depth_sigma / (sigma * sigma);
-    t->contour_excess += rlf_min(off * off * job->dt * job->dt / (sigma * sigma), 9.0);
-    sigma *= 1.41421356 / job->dt;
-    double bound = sum->slack + 3.0 * sigma + normal_error * sum->speed;
-    if (off <= bound && off >= -bound) {
-        t->contour_inliers++;
-        if (weight > 0.0) {
-            add_row(sum, t, p, rlf_contour_direction(point, p), off, sigma, weight);
-        }
-    }
-}
-
 static void step(twist_sum *sum, rlf_twist *t)
 {
-    double x[6], ridge = sum->contour_weight > 0.0 ? contour_ridge : (double)rlf_flow_ridge;
+    double x[6];
     for (int k = 0; k < 6; k++) {
-        sum->a[k][k] += ridge * (agreeing(t) + 1);
+        sum->a[k][k] += (double)rlf_flow_ridge * (t->inliers + 1);
     }
     math_solve_six(sum->a, sum->b, x);
     for (int k = 0; k < 6; k++) {
@@ -159,17 +123,7 @@ static void step(twist_sum *sum, rlf_twist *t)
     }
 }
 
-static void add_contour(twist_sum *sum, rlf_twist *t)
-{
-    t->contour_samples = t->contour_inliers = 0;
-    t->contour_excess = 0.0;
-    for (int32_t k = 0; k < sum->contour->count; k++) {
-        add_contour_point(sum, t, &sum->contour->point[k]);
-    }
-}
-
-/* One step of Gauss and Newton over the pixels and contour points that agree with the motion so
- * far. */
+/* One step of Gauss and Newton over the pixels that agree with the motion so far. */
 static void fit_pass(const twist_sum *start, double slack, rlf_twist *t)
 {
     twist_sum sum = *start;
@@ -187,18 +141,16 @@ static void fit_pass(const twist_sum *start, double slack, rlf_twist *t)
             }
         }
     }
-    add_contour(&sum, t);
     step(&sum, t);
 }
 
 /* What agrees with rest. */
 static void count_rest(const twist_sum *start, rlf_twist *t)
 {
-    twist_sum sum = *start;
-    const rlf_flow *job = sum.job;
+    const rlf_flow *job = start->job;
     const image_grid *grid = &job->stage->grid;
     const rlf_slot *now = job->now;
-    const rlf_region *region = sum.region;
+    const rlf_region *region = start->region;
     const rlf_kernel_rest_in in = {.label = now->label,
                                    .reason = now->reason,
                                    .depth = now->depth,
@@ -216,7 +168,6 @@ static void count_rest(const twist_sum *start, rlf_twist *t)
                                    .noise = job->noise,
                                    .reach = 2.0f * rlf_flow_limb_m};
     rlf_kernel_rest_count(&in, &t->samples, &t->inliers);
-    add_contour(&sum, t);
 }
 
 static rlf_twist start_from(const rlf_region *region, rlf_vec3 velocity)
@@ -241,28 +192,18 @@ static rlf_twist fit_from(const twist_sum *start, rlf_vec3 velocity)
     return t;
 }
 
-/* Whether the contour is farther off than the width of its pixels explains. */
-static bool is_contour_off(const rlf_twist *t)
-{
-    return t->contour_samples > 0 && t->contour_excess > contour_excess * t->contour_samples;
-}
-
 /* More than chance, and more than a share of one pixel's noise. */
 static bool is_significant(const rlf_twist *t, double least)
 {
-    int32_t count = agreeing(t);
     return t->inliers >= LEAST_REGION_SAMPLES && t->explained > least * t->noise &&
-           t->explained > significant_6 * t->noise / count * rlf_flow_correlated;
+           t->explained > significant_6 * t->noise / t->inliers * rlf_flow_correlated;
 }
 
 /* Someone who stands and moves his arms turns a little as a whole, says the twist; but that he
  * rests explains as much of him. */
 static bool is_rest_as_likely(const rlf_twist *rest, const rlf_twist *t)
 {
-    bool depth_rests = 10 * rest->inliers >= 9 * t->inliers;
-    bool contour_rests = 10 * rest->contour_inliers >= 9 * t->contour_inliers &&
-                         !(is_contour_off(rest) && 2.0 * t->contour_excess < rest->contour_excess);
-    return (depth_rests && contour_rests) || 9 * agreeing(rest) > 10 * agreeing(t);
+    return 10 * rest->inliers >= 9 * t->inliers;
 }
 
 /* The centroid moves when pieces join or leave a region, too: then its step says nothing. */
@@ -298,66 +239,56 @@ static rlf_vec3 centroid_velocity(const rlf_flow *job, const rlf_region *region)
     return rlf_vec3_make(0, 0, 0);
 }
 
-/* Whether what moved a frame ago goes on as it did, rather than rests: slow motion is less than a
- * frame's noise, but so it is found once and kept. */
-static bool goes_on(const twist_sum *sum, const rlf_twist *rest)
-{
-    const rlf_region *before = find_before(sum->job, sum->region);
-    if (before == NULL || !(rlf_length(before->linear_velocity) > 0.0)) {
-        return false;
-    }
-    rlf_twist same = start_from(sum->region, before->linear_velocity);
-    fit_pass(sum, 0.0, &same);
-    return agreeing(&same) >= agreeing(rest) && same.contour_excess < rest->contour_excess;
-}
-
 /* Whether the region moves as one. Tried from rest and from the centroid's motion; what more pixels
  * agree with is right. */
 static bool is_moving(const rlf_flow *job, const rlf_region *region, rlf_vec3 seen, rlf_twist *out)
 {
-    rlf_contour contour;
-    rlf_contour_find(job, region, &contour);
-    twist_sum sum = {.job = job, .region = region, .contour = &contour};
+    const twist_sum sum = {.job = job, .region = region};
     const rlf_vec3 none = {0, 0, 0};
     rlf_twist rest = start_from(region, none);
     count_rest(&sum, &rest);
-    const rlf_twist all = {.inliers = rest.samples, .contour_inliers = rest.contour_samples};
-    bool is_going_on = goes_on(&sum, &rest);
-    bool rests = is_rest_as_likely(&rest, &all);
-    if (rests && !is_going_on) {
+    if (10 * rest.inliers >= 9 * rest.samples) {
         return false; /* whatever the motion */
     }
     *out = fit_from(&sum, none);
-    if ((rests && !is_significant(out, 0.0)) || is_contour_off(out)) {
-        sum.contour_weight = 1.0 / (double)rlf_flow_correlated;
-        *out = fit_from(&sum, none);
-    }
-    if (rlf_length(seen) > 0.0 && 5 * agreeing(out) < 4 * agreeing(&all)) {
+    if (rlf_length(seen) > 0.0 && 5 * out->inliers < 4 * rest.samples) {
         rlf_twist other = fit_from(&sum, seen);
-        *out = agreeing(&other) > agreeing(out) ? other : *out;
+        *out = other.inliers > out->inliers ? other : *out;
     }
     /* Half of a pixel's noise: small errors that pixels share, from limbs that move by themselves,
      * do not average out. */
-    double least = is_going_on ? 0.0 : 0.25;
-    return is_significant(out, least) && 3 * agreeing(out) >= agreeing(&all) &&
-           (is_going_on || !is_rest_as_likely(&rest, out));
+    return is_significant(out, 0.25) && 3 * out->inliers >= rest.samples &&
+           !is_rest_as_likely(&rest, out);
+}
+
+static bool keyframe_motion(const rlf_keyframe *key, rlf_region *region, rlf_twist *out)
+{
+    out->centre = rlf_add(key->centre, rlf_vec3_make(key->x[0], key->x[1], key->x[2]));
+    out->length = key->length;
+    out->reach = key->has_stood ? 2.0 * key->length : 0.0; /* a person may hold one pose, too */
+    memcpy(out->x, key->velocity, sizeof(out->x));
+    region->angular_velocity = rlf_twist_spin(out);
+    region->linear_velocity = rlf_twist_velocity(out, region->centroid);
+    return rlf_length(region->linear_velocity) > 0.0 || rlf_length(region->angular_velocity) > 0.0;
 }
 
 static bool region_motion(const rlf_flow *job, rlf_region *region, rlf_twist *out)
 {
-    rlf_vec3 seen = centroid_velocity(job, region);
+    const rlf_keyframe *key = keyframe_of_region(job->stage, region->label);
     *out = start_from(region, rlf_vec3_make(0, 0, 0));
-    if (!is_moving(job, region, seen, out)) {
-        region->linear_velocity = seen;
-        for (int k = 0; k < 6; k++) {
-            out->x[k] = 0.0;
-        }
-        return false;
+    const bool is_proven = key != NULL && key->is_whole && key->ring_count == KEYFRAME_RING;
+    if (is_proven || (key != NULL && key->has_stood)) {
+        return keyframe_motion(key, region, out);
     }
-    region->linear_velocity = rlf_vec3_make(out->x[0], out->x[1], out->x[2]);
-    region->angular_velocity =
-        rlf_scale(rlf_vec3_make(out->x[3], out->x[4], out->x[5]), 1.0 / out->length);
-    return true;
+    rlf_vec3 seen = centroid_velocity(job, region);
+    if (is_moving(job, region, seen, out)) {
+        region->linear_velocity = rlf_vec3_make(out->x[0], out->x[1], out->x[2]);
+        region->angular_velocity = rlf_twist_spin(out);
+        return true;
+    }
+    *out = start_from(region, rlf_vec3_make(0, 0, 0));
+    region->linear_velocity = seen;
+    return key != NULL && key->is_whole && keyframe_motion(key, region, out);
 }
 
 /* Row y of the frame before, as far as something was in front: or was taken for background then,
@@ -434,14 +365,15 @@ void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot)
     const rlf_slot *before = stage->previous;
     clear_velocity(&stage->grid, slot);
     double dt = 1e-9 * (double)rlf_stage_elapsed_ns(stage, slot);
-    if (!(dt > 0.0) || dt > longest_gap_s || slot->foreground_region_count == 0) {
+    const bool is_gap = !(dt > 0.0) || dt > longest_gap_s;
+    keyframes_follow(stage, slot, is_gap);
+    if (is_gap || slot->foreground_region_count == 0) {
         return;
     }
     const rlf_flow job = {
         stage,           before, slot, (float)dt, rlf_kernel_noise_make(&stage->def.rig.noise),
         look_back(stage)};
     unite_spans(slot);
-    rlf_contour_mark(&job);
     for (int32_t r = 0; r < slot->foreground_region_count; r++) {
         rlf_region *region = &slot->regions[slot->foreground_region_first + r];
         rlf_twist twist;
@@ -456,7 +388,7 @@ void velocity_allocate(velocity_planes *state, rlf_arena *arena, const image_gri
     size_t n = (size_t)grid->count;
     state->seen = arena_take(arena, n, sizeof(float));
     state->cells = arena_take(arena, rlf_cell_capacity(grid), sizeof *state->cells);
+    state->keyframe = arena_take(arena, RLF_KEYFRAMES, sizeof *state->keyframe);
     arena_next_owner(arena);
     state->is_steady = arena_lend(arena, n, 1);
-    state->is_contour = arena_lend(arena, n, 1);
 }

@@ -1,0 +1,202 @@
+/* Keyframes of the foreground's regions, from frame to frame. */
+#include "surface/motion/keyframe.h"
+#include "surface/steps.h"
+
+#include <string.h>
+
+/* Radians: from there on a thing looks otherwise. */
+static const double most_turn = 0.436;
+/* So much of what is seen agrees with one motion: it is of one piece, and nobody who holds his arms
+ * still. */
+static const double whole_share = 0.9;
+
+void keyframes_reset(velocity_planes *state)
+{
+    for (int32_t i = 0; i < RLF_KEYFRAMES; i++) {
+        state->keyframe[i].state = KEYFRAME_NONE;
+    }
+    state->next_thing = RLF_PIECES + 1;
+}
+rlf_keyframe *keyframe_find_free(velocity_planes *state)
+{
+    for (int32_t i = 0; i < RLF_KEYFRAMES; i++) {
+        if (state->keyframe[i].state == KEYFRAME_NONE) {
+            return &state->keyframe[i];
+        }
+    }
+    return NULL;
+}
+
+keyframe_frame keyframe_frame_of(const rlf_reconstruct *stage)
+{
+    return (keyframe_frame){&stage->grid, stage->work.raw,
+                            rlf_kernel_noise_make(&stage->def.rig.noise)};
+}
+
+/* The region that most of the keyframe's points are in. */
+static int32_t label_of(const rlf_reconstruct *stage, const rlf_slot *slot, const rlf_keyframe *key)
+{
+    int32_t label = 0, votes = 0;
+    const image_grid *grid = &stage->grid;
+    for (int32_t k = 0; k < key->point_count; k++) {
+        const ptrdiff_t i = keyframe_pixel(grid, key, key->point[k].p);
+        const int32_t seen = i >= 0 && slot->foreground[i] ? slot->label[i] : 0;
+        label = votes == 0 ? seen : label;
+        votes += seen == label ? 1 : -1;
+    }
+    return label;
+}
+
+static bool is_turned(const rlf_keyframe *key, const double x[6])
+{
+    const double most = most_turn * key->length;
+    return x[3] * x[3] + x[4] * x[4] + x[5] * x[5] > most * most;
+}
+
+static void follow(const keyframe_frame *frame, double time_s, rlf_keyframe *key)
+{
+    keyframe_fit fit = {.points = 0};
+    const double dt = time_s - key->ring[key->ring_count - 1].time_s;
+    if (dt == 0.0) {
+        return; /* it has just started */
+    }
+    for (int k = 0; k < 6; k++) {
+        fit.x[k] = key->x[k] + key->velocity[k] * dt;
+    }
+    keyframe_register(frame, key, &fit);
+    if (!keyframe_agrees(key, &fit) || is_turned(key, fit.x)) {
+        key->state = KEYFRAME_NONE;
+        return;
+    }
+    (void)keyframe_off(frame, key, &fit, fit.x, key->spread);
+    keyframe_push(key, time_s, fit.x);
+    key->is_whole = key->has_stood || (fit.agree >= whole_share * fit.points &&
+                                       fit.rims_agree >= whole_share * fit.rims);
+    keyframe_measure_velocity(key);
+}
+
+/* The region's keyframe of the frame before, if it looks otherwise by now. */
+static const rlf_keyframe *find_left(const velocity_planes *state, int32_t label)
+{
+    for (int32_t i = 0; i < RLF_KEYFRAMES; i++) {
+        const rlf_keyframe *key = &state->keyframe[i];
+        if (key->state == KEYFRAME_NONE && key->label == label && key->is_whole) {
+            return key;
+        }
+    }
+    return NULL;
+}
+
+/* Of a region as it is now, if it has none: what it takes over goes on as it moved. */
+static void take_region(rlf_reconstruct *stage, const rlf_slot *slot, const rlf_region *region)
+{
+    static const double none[6] = {0};
+    const rlf_keyframe *left = find_left(&stage->velocity, region->label);
+    rlf_keyframe *key = left != NULL ? &stage->velocity.keyframe[left - stage->velocity.keyframe]
+                                     : keyframe_find_free(&stage->velocity);
+    const rlf_rect rect = {region->x0, region->y0, region->x1, region->y1};
+    const keyframe_view view = {&stage->grid,
+                                NULL,
+                                slot->label,
+                                region->label,
+                                slot->depth,
+                                stage->work.raw,
+                                (const float *const *)slot->normal,
+                                rlf_kernel_noise_make(&stage->def.rig.noise)};
+    rlf_keyframe before = {.state = KEYFRAME_NONE};
+    if (left != NULL) {
+        before = *left;
+    }
+    if (key == NULL || keyframe_of_region(stage, region->label) != NULL ||
+        !keyframe_take(&view, &rect, region->point_count, key)) {
+        return;
+    }
+    key->state = KEYFRAME_MOVES;
+    key->label = region->label;
+    key->is_whole = before.is_whole;
+    key->has_stood = before.has_stood;
+    memcpy(key->velocity, before.velocity, sizeof(key->velocity));
+    keyframe_push(key, 1e-9 * (double)slot->surface.time_ns, none);
+}
+
+static void turn(const rlf_quat *q, double v[3])
+{
+    const rlf_vec3 to = rlf_rotate(*q, rlf_vec3_make(v[0], v[1], v[2]));
+    v[0] = to.x;
+    v[1] = to.y;
+    v[2] = to.z;
+}
+
+static void turn_float(const rlf_quat *q, float v[3])
+{
+    double to[3] = {v[0], v[1], v[2]};
+    turn(q, to);
+    for (int c = 0; c < 3; c++) {
+        v[c] = (float)to[c];
+    }
+}
+
+static void carry(const rlf_pose *T, rlf_keyframe *key)
+{
+    for (int32_t k = 0; k < key->point_count; k++) {
+        turn_float(&T->q, key->point[k].p);
+        turn_float(&T->q, key->point[k].n);
+    }
+    for (int32_t k = 0; k < key->rim_count; k++) {
+        turn_float(&T->q, key->rim[k].p);
+        turn_float(&T->q, key->rim[k].n);
+        turn_float(&T->q, key->rim[k].out);
+    }
+    for (int first = 0; first < 6; first += 3) {
+        for (int32_t k = 0; k < key->ring_count; k++) {
+            turn(&T->q, key->ring[k].x + first);
+        }
+        turn(&T->q, key->x + first);
+        turn(&T->q, key->velocity + first);
+    }
+    key->centre = rlf_transform(T, key->centre);
+}
+
+void keyframes_carry(velocity_planes *state, const rlf_pose *T_now_before)
+{
+    for (int32_t i = 0; i < RLF_KEYFRAMES; i++) {
+        if (state->keyframe[i].state == KEYFRAME_MOVES) {
+            carry(T_now_before, &state->keyframe[i]);
+        }
+    }
+}
+
+void keyframes_follow(rlf_reconstruct *stage, const rlf_slot *slot, bool is_gap)
+{
+    const keyframe_frame frame = keyframe_frame_of(stage);
+    const double time_s = 1e-9 * (double)slot->surface.time_ns;
+    for (int32_t i = 0; i < RLF_KEYFRAMES; i++) {
+        rlf_keyframe *key = &stage->velocity.keyframe[i];
+        if (key->state == KEYFRAME_MOVES && !is_gap) {
+            follow(&frame, time_s, key);
+        } else {
+            key->state = key->state == KEYFRAME_RESTS ? KEYFRAME_RESTS : KEYFRAME_NONE;
+            key->label = 0;
+        }
+        if (key->state == KEYFRAME_MOVES) {
+            key->label = label_of(stage, slot, key);
+            key->state = key->label > 0 ? KEYFRAME_MOVES : KEYFRAME_NONE;
+        }
+    }
+    for (int32_t r = 0; r < slot->foreground_region_count; r++) {
+        take_region(stage, slot, &slot->regions[slot->foreground_region_first + r]);
+    }
+}
+
+const rlf_keyframe *keyframe_of_region(const rlf_reconstruct *stage, int32_t label)
+{
+    const rlf_keyframe *best = NULL;
+    for (int32_t i = 0; i < RLF_KEYFRAMES; i++) {
+        const rlf_keyframe *key = &stage->velocity.keyframe[i];
+        if (key->state == KEYFRAME_MOVES && key->label == label &&
+            (best == NULL || key->size > best->size)) {
+            best = key;
+        }
+    }
+    return best;
+}
