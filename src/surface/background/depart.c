@@ -25,8 +25,7 @@ enum {
     MOST_UNLIKE = 8,  /* times as many of one as of the other */
     GAP = 3,          /* pixels between things, at most */
     LEAST_RISEN = 50, /* pixels that came nearer */
-    IMAGE_SHARE = 5,  /* what fills more than one of so many parts of the image is the room */
-    LEFT_WEIGHT = 2   /* samples: a mean of one has just been replaced */
+    IMAGE_SHARE = 5   /* what fills more than one of so many parts of the image is the room */
 };
 
 static const float own_sigmas = 1.2533141f; /* per mean deviation: sqrt(pi / 2) */
@@ -88,7 +87,7 @@ static void follow(rlf_reconstruct *stage, const rlf_slot *slot, int32_t i, uint
     if (!(z > 0.0f)) {
         return;
     }
-    if (background->weight[i] < LEFT_WEIGHT) { /* seen past for long enough */
+    if (background->weight[i] < RLF_LEFT_WEIGHT) { /* seen past for long enough */
         background->depart.left[i] = 0;
         return;
     }
@@ -97,7 +96,7 @@ static void follow(rlf_reconstruct *stage, const rlf_slot *slot, int32_t i, uint
         seen[i] = RLF_SEEN_FOREGROUND;
         if (-off <= gate) {
             background->mean[i] = z;
-            background->weight[i] = LEFT_WEIGHT;
+            background->weight[i] = RLF_LEFT_WEIGHT;
             background->deviation[i] = 0.0f;
         }
     }
@@ -242,7 +241,7 @@ static void count_gained(const rlf_reconstruct *stage, const rlf_slot *slot, tal
     for (int32_t i = grid->width; (i = rlf_kernel_next_mark(front, i, grid->count)) < grid->count;
          i++) {
         int32_t x = i % grid->width;
-        if (x > 0) {
+        if (x > 0 && front[i] != RLF_SEEN_PAST) {
             add_edge(&tallies[thing_beside(stage, slot->depth, i)].gained, x, i / grid->width);
         }
     }
@@ -298,7 +297,7 @@ static void leave(rlf_reconstruct *stage, rlf_slot *slot, int32_t i)
     bool is_lost = stage->background.depart.lost[i] == LOST;
     background->depart.left[i] = !is_lost;
     background->mean[i] = z > 0.0f ? z : background->mean[i];
-    background->weight[i] = is_lost ? 1 : LEFT_WEIGHT;
+    background->weight[i] = is_lost ? 1 : RLF_LEFT_WEIGHT;
     background->deviation[i] = 0.0f;
     background->beyond[i] = 0;
     background->beneath[i] = 0.0f;

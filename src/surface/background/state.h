@@ -16,6 +16,9 @@ typedef struct rlf_depart {
     bool is_urgent;                  /* something has left in this frame */
 } rlf_depart;
 
+/* Samples of the mean of what has left: a mean of one has just been replaced. */
+enum { RLF_LEFT_WEIGHT = 2 };
+
 /* How much of the room the newest frame shows: see background/sight.c. */
 typedef struct rlf_sight {
     int64_t first_ns; /* of the first frame with any depth, if has_depth */
