@@ -52,7 +52,7 @@ static void leave(rlf_reconstruct *stage, int32_t i, float z)
 {
     rlf_background *background = &stage->background;
     if (background->depart.left != NULL) {
-        background->depart.left[i] = 1;
+        background->depart.left[i] = RLF_LEFT_AWAY;
         background->mean[i] = z;
         background->deviation[i] = 0.0f;
         background->weight[i] = RLF_LEFT_WEIGHT;
@@ -149,9 +149,17 @@ static bool goes_on(const reveal_job *job, ptrdiff_t i, ptrdiff_t at, int32_t st
     return plane > 0.0f && rlf_kernel_abs(plane - z) < rlf_background_gate(&stage->def, z) + turned;
 }
 
+/* It went away from the camera; or the floor at its feet was taken for it. */
+static bool is_away(const reveal_job *job, ptrdiff_t i)
+{
+    const uint8_t *left = job->stage->background.depart.left;
+    return left != NULL && left[i] == RLF_LEFT_AWAY;
+}
+
 static bool is_known(const reveal_job *job, ptrdiff_t i)
 {
-    return job->stage->background.mean[i] > 0.0f && job->slot->foreground[i] != RLF_SEEN_PAST;
+    return job->stage->background.mean[i] > 0.0f && job->slot->foreground[i] != RLF_SEEN_PAST &&
+           !is_away(job, i);
 }
 
 /* The next known pixels of the background go on at (x, y): on both sides along its row or its
@@ -183,11 +191,12 @@ static void reveal_rows(void *context, int32_t begin, int32_t end, int32_t worke
     const image_grid *grid = &job->stage->grid;
     for (int32_t y = begin; y < end; y++) {
         const rlf_span span = job->stage->work.front[y];
-        const uint8_t *front = job->slot->foreground + (ptrdiff_t)y * grid->width;
-        uint8_t *mark = job->stage->background.covered + (ptrdiff_t)y * grid->width;
+        const ptrdiff_t row = (ptrdiff_t)y * grid->width;
+        const uint8_t *front = job->slot->foreground + row;
+        uint8_t *mark = job->stage->background.covered + row;
         memset(mark, 0, (size_t)grid->width);
         for (int32_t x = span.x0; (x = rlf_kernel_next_mark(front, x, span.x1)) < span.x1; x++) {
-            bool is_open = front[x] == RLF_SEEN_UNKNOWN || front[x] == RLF_SEEN_PAST;
+            bool is_open = front[x] != RLF_SEEN_FOREGROUND || is_away(job, row + x);
             mark[x] = is_open && is_revealed(job, x, y);
         }
     }
@@ -205,6 +214,8 @@ void rlf_background_reveal(rlf_reconstruct *stage, const rlf_slot *slot)
     for (int32_t i = 0; (i = rlf_kernel_next_mark(mark, i, grid->count)) < grid->count; i++) {
         if (slot->foreground[i] == RLF_SEEN_UNKNOWN) {
             learn_hole(stage, i, slot->depth[i], false);
+        } else if (slot->foreground[i] == RLF_SEEN_FOREGROUND) {
+            stage->background.depart.left[i] = 0;
         }
         slot->foreground[i] = RLF_SEEN_BACKGROUND;
     }
