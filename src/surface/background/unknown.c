@@ -21,6 +21,7 @@ enum {
 };
 
 static const float fastest = 3.0f; /* m/s, of who goes away */
+static const float steep = 1.73f;   /* tan of 60 degrees: of a surface that nobody saw */
 static const float slant = 0.05f; /* radians: error of the background's normals */
 
 /* Of each component; planes of the work that components_find no longer needs. */
@@ -78,7 +79,7 @@ static int32_t stands_at(const rlf_reconstruct *stage, const rlf_slot *slot, int
         return 0;
     }
     float apart = (float)((beside - x) * way);
-    bool is_step = depth_step_is(&step, depth[x], depth[beside], DEPTH_STEP_STEEPEST, apart);
+    bool is_step = depth_step_is(&step, depth[x], depth[beside], steep, apart);
     return is_step && depth[x] < depth[beside] ? 1 : -1;
 }
 
