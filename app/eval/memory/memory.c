@@ -13,7 +13,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#define OFF_M 0.04      /* of a background's depth: it is of something else */
+#define OFF_M 0.04       /* of a background's depth: it is of something else */
 #define PICTURE 300000.0 /* pixels: counts are of a picture of so many */
 
 enum { ROOMS = 3, MEMORIES = 3 };

@@ -21,8 +21,8 @@ enum {
 };
 
 static const float fastest = 3.0f; /* m/s, of who goes away */
-static const float steep = 1.73f;   /* tan of 60 degrees: of a surface that nobody saw */
-static const float slant = 0.05f; /* radians: error of the background's normals */
+static const float steep = 1.73f;  /* tan of 60 degrees: of a surface that nobody saw */
+static const float slant = 0.05f;  /* radians: error of the background's normals */
 
 /* Of each component; planes of the work that components_find no longer needs. */
 typedef struct evidence {
