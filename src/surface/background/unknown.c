@@ -242,8 +242,11 @@ static void decide_pixel(rlf_reconstruct *stage, const rlf_slot *slot, int32_t i
     if (slot->foreground[i] == RLF_SEEN_UNKNOWN) {
         learn_hole(stage, i, slot->depth[i], front);
     }
-    if (front && slot->foreground[i] == RLF_SEEN_PAST && is_leaving(stage, slot, i)) {
-        leave(stage, i, slot->depth[i]);
+    if (front && slot->foreground[i] == RLF_SEEN_PAST) {
+        front = is_leaving(stage, slot, i); /* or something that it uncovered */
+        if (front) {
+            leave(stage, i, slot->depth[i]);
+        }
     }
     if (!front && stage->background.covered[i] == RLF_COVERED) {
         slot->depth[i] = 0.0f;
