@@ -77,6 +77,7 @@ static const section sections[] = {
     {"start", eval_start_run, "what stood starts to move, and carries or pushes bodies"},
     {"moving", eval_moving_run, "the camera moves: its pose against the map"},
     {"standing", eval_standing_run, "cameras that stand, and that are moved and put down"},
+    {"memory", eval_memory_run, "the room behind people: per pixel, and from a map"},
     {"hands", eval_hands_run, "scripted hands grasp, carry and throw"},
     {"gestures", eval_gestures_run, "palms, finger tips and gestures of scripted hands"},
     {"calibration", eval_calibration_run, "cameras from pictures of a board, where they are known"},

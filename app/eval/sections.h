@@ -30,6 +30,8 @@ rlf_result eval_map_cost_run(eval_table *table, int64_t seed, int profile_mask);
 rlf_result eval_moving_run(eval_table *table, int64_t seed, int profile_mask);
 /* Cameras that stand, and cameras that are moved and put down. */
 rlf_result eval_standing_run(eval_table *table, int64_t seed, int profile_mask);
+/* What is remembered of the room behind people: per pixel, and by a map. */
+rlf_result eval_memory_run(eval_table *table, int64_t seed, int profile_mask);
 /* Scripted hands of the simulator: grasps, throws, false grabs. */
 rlf_result eval_hands_run(eval_table *table, int64_t seed, int profile_mask);
 rlf_result eval_gestures_run(eval_table *table, int64_t seed, int profile_mask);

@@ -64,7 +64,7 @@ RLF_KERNEL_PART int32_t update(const rlf_kernel_background *params, const float 
         at->weight[i] = samples;
         at->beyond[i] = count_beyond * (1 - replaced);
         at->seen[i] = nearer * RLF_SEEN_FOREGROUND + (fresh & ~learning) * RLF_SEEN_UNKNOWN +
-                      (1 - valid) * RLF_SEEN_MISSING;
+                      (1 - valid) * RLF_SEEN_MISSING + (farther & ~learning) * RLF_SEEN_PAST;
         changed += restart;
     }
     return changed;

@@ -316,7 +316,8 @@ enum {
     RLF_SEEN_BACKGROUND = 0,
     RLF_SEEN_FOREGROUND = 1,
     RLF_SEEN_UNKNOWN = 2, /* depth where the background has none */
-    RLF_SEEN_MISSING = 3  /* no depth */
+    RLF_SEEN_MISSING = 3, /* no depth */
+    RLF_SEEN_PAST = 4     /* depth behind the background's: that has gone */
 };
 
 /* Rows of the model; they do not overlap. */

@@ -96,6 +96,9 @@ static void replace(rlf_reconstruct *stage, int32_t i, float z)
     background->weight[i] = RLF_STILL_WEIGHT;
     background->beyond[i] = 0;
     background->still_ms[i] = 0;
+    if (background->depart.left != NULL) {
+        background->depart.left[i] = 0;
+    }
     background_image_changed(background, &stage->grid, i % stage->grid.width, i / stage->grid.width,
                              1);
 }
@@ -117,9 +120,6 @@ static void absorb_pixel(rlf_reconstruct *stage, int32_t i)
     bool has_left = background->depart.left != NULL && background->depart.left[i];
     background->beneath[i] = beneath > 0.0f || has_left ? beneath : background->mean[i];
     background->hides[i / stage->grid.width] = 1;
-    if (has_left) {
-        background->depart.left[i] = 0;
-    }
     replace(stage, i, background->still[i]);
 }
 
@@ -173,13 +173,11 @@ static bool restore_row(rlf_reconstruct *stage, const rlf_slot *slot, int32_t y)
     for (int32_t i = y * stage->grid.width; i < (y + 1) * stage->grid.width; i++) {
         float z = slot->depth[i], beneath = background->beneath[i];
         any = any || beneath > 0.0f;
-        if (!(beneath > 0.0f) || slot->foreground[i] || !(z > background->mean[i])) {
-            continue;
-        }
-        float gate = rlf_background_gate(&stage->def, z);
-        if (z - background->mean[i] > gate && rlf_kernel_abs(z - beneath) <= gate) {
+        bool is_past = beneath > 0.0f && slot->foreground[i] == RLF_SEEN_PAST;
+        if (is_past && rlf_kernel_abs(z - beneath) <= rlf_background_gate(&stage->def, z)) {
             replace(stage, i, beneath);
             background->beneath[i] = 0.0f;
+            slot->foreground[i] = RLF_SEEN_BACKGROUND;
         }
     }
     return any;

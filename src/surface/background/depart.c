@@ -11,8 +11,7 @@
 #include <string.h>
 
 enum {
-    GAP = 3,        /* pixels between things, at most */
-    LEFT_WEIGHT = 2 /* samples: a mean of one has just been replaced */
+    GAP = 3 /* pixels between things, at most */
 };
 
 static const float own_sigmas = 1.2533141f; /* per mean deviation: sqrt(pi / 2) */
@@ -60,7 +59,7 @@ static void follow(rlf_reconstruct *stage, const rlf_slot *slot, int32_t i, uint
     if (!(z > 0.0f)) {
         return;
     }
-    if (background->weight[i] < LEFT_WEIGHT) { /* seen past for long enough */
+    if (background->weight[i] < RLF_LEFT_WEIGHT) { /* seen past for long enough */
         background->depart.left[i] = 0;
         return;
     }
@@ -69,7 +68,7 @@ static void follow(rlf_reconstruct *stage, const rlf_slot *slot, int32_t i, uint
         seen[i] = RLF_SEEN_FOREGROUND;
         if (-off <= gate) {
             background->mean[i] = z;
-            background->weight[i] = LEFT_WEIGHT;
+            background->weight[i] = RLF_LEFT_WEIGHT;
             background->deviation[i] = 0.0f;
         }
     }
@@ -123,7 +122,7 @@ static void leave(rlf_reconstruct *stage, rlf_slot *slot, int32_t i)
     bool is_lost = is_past(stage, z, i);
     background->depart.left[i] = !is_lost;
     background->mean[i] = z > 0.0f ? z : background->mean[i];
-    background->weight[i] = is_lost ? 1 : LEFT_WEIGHT;
+    background->weight[i] = is_lost ? 1 : RLF_LEFT_WEIGHT;
     background->deviation[i] = 0.0f;
     background->beyond[i] = 0;
     background->beneath[i] = 0.0f;

@@ -9,11 +9,17 @@
 typedef struct rlf_depart {
     uint8_t *thing; /* plane: of which of the background's things; 0 = of none */
     float *depth;   /* plane: of it as it stood */
-    uint8_t *left;  /* plane: 1 where the mean is of something that moves: no background */
+    uint8_t *left;  /* plane: 1, or RLF_LEFT_AWAY, where the mean is of something that moves: no
+                        background */
     rlf_rect extent[RLF_PIECES + 1]; /* of each thing, from 1 ... */
     int32_t size[RLF_PIECES + 1];    /* ... and its pixels */
     bool is_urgent;                  /* something has left in this frame */
 } rlf_depart;
+
+enum {
+    RLF_LEFT_AWAY = 2,  /* in rlf_depart.left: what goes away from the camera */
+    RLF_LEFT_WEIGHT = 2 /* samples of its mean: a mean of one has just been replaced */
+};
 
 /* How much of the room the newest frame shows: see background/sight.c. */
 typedef struct rlf_sight {

@@ -1,11 +1,13 @@
-/* Pixels that have depth where the background has none: the room's wall, seen for the first time,
- * or something that came?
+/* Pixels that have depth where the background has none, or behind it: the room, seen for the first
+ * time, or something that moves?
  *
- * In the first frames a part of the room is in the sensor's shadow of what stands before it. When
- * that leaves, or the sensor sees past it, such a pixel shows a face that goes on beside it, where
- * the background is known and seen now: then it is background. What does not go on is foreground
- * when it hangs together with foreground or is large. */
+ * A surface behind all that was known at its pixels proves that what was there has left; it is room
+ * at once. So is what goes on beside it, where the background is known and seen now, and what does
+ * not stand in front of what is seen on its left and right. It is foreground when it hangs together
+ * with foreground; or when it is large, stands in front, and nothing was known there or it was
+ * nearer in the frame before: who goes away from the camera is behind where he was, too. */
 #include "surface/depth/depth.h"
+#include "surface/depth_step.h"
 #include "surface/normals/face.h"
 #include "surface/steps.h"
 #include "surface/window.h"
@@ -18,25 +20,94 @@ enum {
     REACH = 64               /* pixels to where the background is known */
 };
 
-static const float slant = 0.05f; /* radians: error of the background's normals */
+static const float fastest = 3.0f; /* m/s, of who goes away */
+static const float steep = 1.73f;  /* tan of 60 degrees: of a surface that nobody saw */
+static const float slant = 0.05f;  /* radians: error of the background's normals */
 
-/* vote[0][c]: pixels of component c that are in front of a known background; vote[1][c]: those that
- * were covered (hidden.c). */
-static void count_seeds(const rlf_reconstruct *stage, const uint8_t *mask, int32_t components)
+/* Of each component; planes of the work that components_find no longer needs. */
+typedef struct evidence {
+    int32_t *seeds;     /* pixels that are in front of a known background */
+    int32_t *covered;   /* pixels that were covered (hidden.c) */
+    int32_t *stands;    /* ends of its rows that are in front of what is beside, less the others */
+    int32_t *uncovered; /* pixels that show what was behind, and did not move */
+} evidence;
+
+static evidence evidence_of(const rlf_reconstruct *stage)
+{
+    const rlf_work *work = &stage->work;
+    return (evidence){work->vote[0], work->vote[1], work->parent, work->map};
+}
+
+/* It went away from the camera since the frame before: no faster than people do. */
+static bool is_leaving(const rlf_reconstruct *stage, const rlf_slot *slot, int32_t i)
+{
+    float z = slot->depth[i], before = stage->previous != NULL ? stage->previous->depth[i] : 0.0f;
+    float way = before > 0.0f ? z - before : 0.0f;
+    return way > rlf_background_gate(&stage->def, z) &&
+           way < fastest * rlf_stage_elapsed_s(stage, slot);
+}
+
+/* What moves is no background, and hides what is behind it. */
+static void leave(rlf_reconstruct *stage, int32_t i, float z)
+{
+    rlf_background *background = &stage->background;
+    if (background->depart.left != NULL) {
+        background->depart.left[i] = RLF_LEFT_AWAY;
+        background->mean[i] = z;
+        background->deviation[i] = 0.0f;
+        background->weight[i] = RLF_LEFT_WEIGHT;
+        background->beyond[i] = 0;
+        background_image_changed(background, &stage->grid, i % stage->grid.width,
+                                 i / stage->grid.width, 1);
+    }
+}
+
+/* 1 when the pixel of row y at the end of a run, and the next one that way that has depth, show
+ * that the run stands in front; -1 when not; 0 when there is none. */
+static int32_t stands_at(const rlf_reconstruct *stage, const rlf_slot *slot, int32_t y, int32_t x,
+                         int32_t way)
+{
+    const image_grid *grid = &stage->grid;
+    const float *depth = slot->depth + (ptrdiff_t)y * grid->width;
+    const depth_step step = depth_step_make(&stage->def.rig.noise, grid->camera.fx);
+    int32_t beside = x + way;
+    while (beside >= 0 && beside < grid->width && !(depth[beside] > 0.0f)) {
+        beside += way;
+    }
+    if (beside < 0 || beside >= grid->width) {
+        return 0;
+    }
+    float apart = (float)((beside - x) * way);
+    bool is_step = depth_step_is(&step, depth[x], depth[beside], steep, apart);
+    return is_step && depth[x] < depth[beside] ? 1 : -1;
+}
+
+static void weigh_run(const rlf_reconstruct *stage, const rlf_slot *slot, int32_t y,
+                      const rlf_run *run, const evidence *sum)
+{
+    int32_t row = y * stage->grid.width, c = run->component;
+    for (int32_t i = row + run->x0; i < row + run->x1; i++) {
+        uint8_t seen = slot->foreground[i];
+        sum->seeds[c] += seen == RLF_SEEN_FOREGROUND ? 1 : 0;
+        sum->covered[c] += stage->background.covered[i] == RLF_COVERED ? 1 : 0;
+        sum->uncovered[c] += seen == RLF_SEEN_PAST && !is_leaving(stage, slot, i) ? 1 : 0;
+    }
+    sum->stands[c] += stands_at(stage, slot, y, run->x0, -1);
+    sum->stands[c] += stands_at(stage, slot, y, run->x1 - 1, 1);
+}
+
+static void weigh(const rlf_reconstruct *stage, const rlf_slot *slot)
 {
     const rlf_runs *runs = &stage->work.runs;
-    int32_t *seeds = stage->work.vote[0], *covered = stage->work.vote[1];
-    memset(seeds, 0, (size_t)(components + 1) * sizeof *seeds);
-    memset(covered, 0, (size_t)(components + 1) * sizeof *covered);
+    const evidence sum = evidence_of(stage);
+    const size_t size = (size_t)(stage->component_count + 1) * sizeof(int32_t);
+    memset(sum.seeds, 0, size);
+    memset(sum.covered, 0, size);
+    memset(sum.stands, 0, size);
+    memset(sum.uncovered, 0, size);
     for (int32_t y = 0; y < stage->grid.height; y++) {
-        const uint8_t *row = mask + (ptrdiff_t)y * stage->grid.width;
-        const uint8_t *cover = stage->background.covered + (ptrdiff_t)y * stage->grid.width;
         for (int32_t r = runs->first[y]; r < runs->first[y + 1]; r++) {
-            const rlf_run *run = &runs->run[r];
-            for (int32_t x = run->x0; x < run->x1; x++) {
-                seeds[run->component] += row[x] == RLF_SEEN_FOREGROUND ? 1 : 0;
-                covered[run->component] += cover[x] == RLF_COVERED ? 1 : 0;
-            }
+            weigh_run(stage, slot, y, &runs->run[r], &sum);
         }
     }
 }
@@ -77,19 +148,31 @@ static bool goes_on(const reveal_job *job, ptrdiff_t i, ptrdiff_t at, int32_t st
     return plane > 0.0f && rlf_kernel_abs(plane - z) < rlf_background_gate(&stage->def, z) + turned;
 }
 
+/* It went away from the camera; or the floor at its feet was taken for it. */
+static bool is_away(const reveal_job *job, ptrdiff_t i)
+{
+    const uint8_t *left = job->stage->background.depart.left;
+    return left != NULL && left[i] == RLF_LEFT_AWAY;
+}
+
+static bool is_known(const reveal_job *job, ptrdiff_t i)
+{
+    return job->stage->background.mean[i] > 0.0f && job->slot->foreground[i] != RLF_SEEN_PAST &&
+           !is_away(job, i);
+}
+
 /* The next known pixels of the background go on at (x, y): on both sides along its row or its
  * column, or on one side of what does not move. */
 static bool is_revealed(const reveal_job *job, int32_t x, int32_t y)
 {
     const image_grid *grid = &job->stage->grid;
-    const float *mean = job->stage->background.mean;
     const int32_t room[4] = {x, grid->width - 1 - x, y, grid->height - 1 - y};
     const ptrdiff_t step[4] = {-1, 1, -grid->width, grid->width};
     ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
     bool may_move = temporal_may_move(job->stage, x, y), is_there[4];
     for (int k = 0; k < 4; k++) {
         int32_t steps = 1, most = rlf_least(room[k], REACH);
-        while (steps <= most && !(mean[i + steps * step[k]] > 0.0f)) {
+        while (steps <= most && !is_known(job, i + steps * step[k])) {
             steps++;
         }
         is_there[k] = steps <= most && goes_on(job, i, i + steps * step[k], steps);
@@ -107,11 +190,13 @@ static void reveal_rows(void *context, int32_t begin, int32_t end, int32_t worke
     const image_grid *grid = &job->stage->grid;
     for (int32_t y = begin; y < end; y++) {
         const rlf_span span = job->stage->work.front[y];
-        const uint8_t *front = job->slot->foreground + (ptrdiff_t)y * grid->width;
-        uint8_t *mark = job->stage->background.covered + (ptrdiff_t)y * grid->width;
+        const ptrdiff_t row = (ptrdiff_t)y * grid->width;
+        const uint8_t *front = job->slot->foreground + row;
+        uint8_t *mark = job->stage->background.covered + row;
         memset(mark, 0, (size_t)grid->width);
         for (int32_t x = span.x0; (x = rlf_kernel_next_mark(front, x, span.x1)) < span.x1; x++) {
-            mark[x] = front[x] == RLF_SEEN_UNKNOWN && is_revealed(job, x, y);
+            bool is_open = front[x] != RLF_SEEN_FOREGROUND || is_away(job, row + x);
+            mark[x] = is_open && is_revealed(job, x, y);
         }
     }
 }
@@ -126,7 +211,11 @@ void rlf_background_reveal(rlf_reconstruct *stage, const rlf_slot *slot)
     rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, reveal_rows, &job);
     const uint8_t *mark = stage->background.covered;
     for (int32_t i = 0; (i = rlf_kernel_next_mark(mark, i, grid->count)) < grid->count; i++) {
-        learn_hole(stage, i, slot->depth[i], false);
+        if (slot->foreground[i] == RLF_SEEN_UNKNOWN) {
+            learn_hole(stage, i, slot->depth[i], false);
+        } else if (slot->foreground[i] == RLF_SEEN_FOREGROUND) {
+            stage->background.depart.left[i] = 0;
+        }
         slot->foreground[i] = RLF_SEEN_BACKGROUND;
     }
 }
@@ -135,14 +224,16 @@ void rlf_background_reveal(rlf_reconstruct *stage, const rlf_slot *slot)
  * region of what is too small for one; apart from what it belongs to, it stays. */
 static bool is_component_front(const rlf_reconstruct *stage, int32_t component)
 {
-    const rlf_work *work = &stage->work;
-    int32_t size = work->size[component], own = size - work->vote[1][component];
+    const evidence sum = evidence_of(stage);
+    int32_t size = stage->work.size[component], own = size - sum.covered[component];
     int32_t least = stage->def.min_region_points;
     if (stage->def.background_method == RLF_BACKGROUND_GIVEN) {
-        return 2 * work->vote[0][component] >= size; /* a camera that turns sees new walls */
+        return 2 * sum.seeds[component] >= size; /* a camera that turns sees new walls */
     }
-    return (10 * work->vote[0][component] >= size || size >= least) &&
-           (own == size || own >= least || own == 0);
+    int32_t seeds = sum.seeds[component], others = size - sum.uncovered[component];
+    bool came =
+        size >= least && sum.stands[component] > 0 && others - seeds > sum.uncovered[component];
+    return (10 * seeds >= others || came) && (own == size || own >= least || own == 0);
 }
 
 /* Decides about pixel i of a component; takes back its depth if it has none of its own. */
@@ -150,6 +241,12 @@ static void decide_pixel(rlf_reconstruct *stage, const rlf_slot *slot, int32_t i
 {
     if (slot->foreground[i] == RLF_SEEN_UNKNOWN) {
         learn_hole(stage, i, slot->depth[i], front);
+    }
+    if (front && slot->foreground[i] == RLF_SEEN_PAST) {
+        front = is_leaving(stage, slot, i); /* or something that it uncovered */
+        if (front) {
+            leave(stage, i, slot->depth[i]);
+        }
     }
     if (!front && stage->background.covered[i] == RLF_COVERED) {
         slot->depth[i] = 0.0f;
@@ -165,7 +262,7 @@ static void decide_pixel(rlf_reconstruct *stage, const rlf_slot *slot, int32_t i
 void rlf_background_decide_unknown(rlf_reconstruct *stage, const rlf_slot *slot)
 {
     const rlf_work *work = &stage->work;
-    count_seeds(stage, slot->foreground, stage->component_count);
+    weigh(stage, slot);
     for (int32_t y = 0; y < stage->grid.height; y++) {
         int32_t row = y * stage->grid.width;
         for (int32_t r = work->runs.first[y]; r < work->runs.first[y + 1]; r++) {
