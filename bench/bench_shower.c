@@ -2,6 +2,8 @@
 #define _POSIX_C_SOURCE 200809L
 #include "bench_physics.h"
 
+#include "relief/pipeline.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

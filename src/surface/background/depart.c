@@ -11,7 +11,9 @@
 #include <string.h>
 
 enum {
-    GAP = 3 /* pixels between things, at most */
+    STRAIGHT = 4, /* ways to a pixel's neighbours: along rows and columns, ... */
+    WAYS = 8,     /* ... and slanting ones, for corners */
+    GAP = 3       /* pixels between things, at most */
 };
 
 static const float own_sigmas = 1.2533141f; /* per mean deviation: sqrt(pi / 2) */
@@ -83,13 +85,14 @@ void rlf_depart_follow(rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *se
     }
 }
 
-/* The other thing, from pixel i on in one of four ways, that is as deep; 0: none. Between things
- * there are pixels of none. */
+/* The other thing, from pixel i on in one of eight ways (four straight ones first), that is as deep;
+ * 0: none. Between things there are pixels of none. */
 static uint8_t thing_on(const rlf_reconstruct *stage, const float *depth, int32_t i, int32_t way)
 {
     const image_grid *grid = &stage->grid;
     const uint8_t *thing = stage->background.depart.thing;
-    static const int32_t ways[4][2] = {{0, -1}, {-1, 0}, {1, 0}, {0, 1}};
+    static const int32_t ways[WAYS][2] = {{0, -1},  {-1, 0}, {1, 0},  {0, 1},
+                                          {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
     const depth_step step = depth_step_make(&stage->def.rig.noise, grid->camera.fx);
     for (int32_t r = 1; r <= GAP; r++) {
         int32_t x = i % grid->width + r * ways[way][0], y = i / grid->width + r * ways[way][1];
@@ -136,10 +139,10 @@ static bool is_outline(const rlf_reconstruct *stage, const float *depth, const u
                        int32_t i)
 {
     int32_t own = 0, others = 0;
-    for (int32_t way = 0; way < 4 && depth[i] > 0.0f; way++) {
+    for (int32_t way = 0; way < WAYS && depth[i] > 0.0f; way++) {
         uint8_t thing = thing_on(stage, depth, i, way);
         own += departed[thing];
-        others += thing != 0 && !departed[thing];
+        others += way < STRAIGHT && thing != 0 && !departed[thing];
     }
     return own > 0 && others == 0;
 }
@@ -149,10 +152,10 @@ static void leave_all(rlf_reconstruct *stage, rlf_slot *slot, const uint8_t *dep
 {
     const image_grid *grid = &stage->grid;
     uint8_t *thing = stage->background.depart.thing;
-    const float *mean = stage->background.mean;
+    const float *stood = stage->background.depart.depth;
     for (int32_t i = 0; i < grid->count; i++) {
         bool is_filled = slot->reason[i] == RLF_REASON_FILLED; /* as deep as the thing, it may be */
-        if (departed[thing[i]] || (thing[i] == 0 && is_outline(stage, mean, departed, i)) ||
+        if (departed[thing[i]] || (thing[i] == 0 && is_outline(stage, stood, departed, i)) ||
             (is_filled && is_outline(stage, slot->depth, departed, i))) {
             leave(stage, slot, i);
         }

@@ -26,10 +26,11 @@ static const float slant = 0.05f;  /* radians: error of the background's normals
 
 /* Of each component; planes of the work that components_find no longer needs. */
 typedef struct evidence {
-    int32_t *seeds;     /* pixels that are in front of a known background */
-    int32_t *covered;   /* pixels that were covered (hidden.c) */
-    int32_t *stands;    /* ends of its rows that are in front of what is beside, less the others */
-    int32_t *uncovered; /* pixels that show what was behind, and did not move */
+    int32_t *seeds;   /* pixels that are in front of a known background */
+    int32_t *covered; /* pixels that were covered (hidden.c) */
+    int32_t *stands;  /* ends of its rows that are in front of what is beside, less the others */
+    int32_t *comes;   /* pixels that moved or are of an unknown place, less those that show what
+                         was behind */
 } evidence;
 
 static evidence evidence_of(const rlf_reconstruct *stage)
@@ -88,9 +89,10 @@ static void weigh_run(const rlf_reconstruct *stage, const rlf_slot *slot, int32_
     int32_t row = y * stage->grid.width, c = run->component;
     for (int32_t i = row + run->x0; i < row + run->x1; i++) {
         uint8_t seen = slot->foreground[i];
+        bool came = seen == RLF_SEEN_UNKNOWN || is_leaving(stage, slot, i);
         sum->seeds[c] += seen == RLF_SEEN_FOREGROUND ? 1 : 0;
         sum->covered[c] += stage->background.covered[i] == RLF_COVERED ? 1 : 0;
-        sum->uncovered[c] += seen == RLF_SEEN_PAST && !is_leaving(stage, slot, i) ? 1 : 0;
+        sum->comes[c] += seen == RLF_SEEN_FOREGROUND ? 0 : came ? 1 : -1;
     }
     sum->stands[c] += stands_at(stage, slot, y, run->x0, -1);
     sum->stands[c] += stands_at(stage, slot, y, run->x1 - 1, 1);
@@ -104,7 +106,7 @@ static void weigh(const rlf_reconstruct *stage, const rlf_slot *slot)
     memset(sum.seeds, 0, size);
     memset(sum.covered, 0, size);
     memset(sum.stands, 0, size);
-    memset(sum.uncovered, 0, size);
+    memset(sum.comes, 0, size);
     for (int32_t y = 0; y < stage->grid.height; y++) {
         for (int32_t r = runs->first[y]; r < runs->first[y + 1]; r++) {
             weigh_run(stage, slot, y, &runs->run[r], &sum);
@@ -230,10 +232,8 @@ static bool is_component_front(const rlf_reconstruct *stage, int32_t component)
     if (stage->def.background_method == RLF_BACKGROUND_GIVEN) {
         return 2 * sum.seeds[component] >= size; /* a camera that turns sees new walls */
     }
-    int32_t seeds = sum.seeds[component], others = size - sum.uncovered[component];
-    bool came =
-        size >= least && sum.stands[component] > 0 && others - seeds > sum.uncovered[component];
-    return (10 * seeds >= others || came) && (own == size || own >= least || own == 0);
+    bool came = size >= least && sum.stands[component] > 0 && sum.comes[component] > 0;
+    return (10 * sum.seeds[component] >= size || came) && (own == size || own >= least || own == 0);
 }
 
 /* Decides about pixel i of a component; takes back its depth if it has none of its own. */

@@ -47,7 +47,7 @@ typedef struct rlf_keyframe {
     keyframe_rim rim[KEYFRAME_RIMS];
     int32_t point_count, rim_count;
     int32_t rests;       /* frames in its means */
-    uint8_t moved;       /* a bit per frame, the newest lowest */
+    uint8_t moved, past; /* told to be elsewhere, seen past: a bit per frame, the newest lowest */
     double x[6];         /* pose now */
     double spread[6][6]; /* its covariance */
     double scatter[6];   /* of poses at rest: mean squares */

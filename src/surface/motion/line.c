@@ -62,7 +62,7 @@ static double fit_line(const rlf_keyframe *key, int first, int32_t n, double slo
 static void keep_significant(const rlf_keyframe *key, int first, const double slope[3],
                              double variance, double out[3])
 {
-    double c[4][4] = {{0.0}}, value[4], axis[4][4], sum = 0.0;
+    double c[6][6] = {{0.0}}, value[6], axis[6][6], sum = 0.0;
     for (int i = 0; i < 3; i++) {
         memcpy(c[i], key->spread[first + i] + first, 3 * sizeof(double));
         out[i] = 0.0;

@@ -95,6 +95,14 @@ static void learn(const keyframe_frame *frame, const keyframe_fit *rest, const d
     }
 }
 
+/* Whether most of what is not hidden of a thing is seen past: it has changed its shape or its pose
+ * beyond what is rigid. Twice in three frames it has left. */
+static bool is_seen_past(const rlf_keyframe *key, const keyframe_fit *rest)
+{
+    return 2 * rest->points > key->point_count &&
+           2 * rest->agree < rest->points;
+}
+
 /* True when a thing that rested is told to move: twice in three frames it is elsewhere, and that
  * explains what is seen better; and the two are nearer to each other than to rest. Once is enough
  * where rest explains hardly anything. */
@@ -114,11 +122,14 @@ static bool watch(const keyframe_frame *frame, double time_s, rlf_keyframe *key)
     const bool is_elsewhere = key->rests >= KEYFRAME_REST && off > significant_6 &&
                               gain > significant_6 && keyframe_agrees(key, &fit);
     const bool is_clear = 2 * (rest.agree + rest.rims_agree) < fit.agree + fit.rims_agree;
-    const bool is_told = is_elsewhere && (is_clear || ((key->moved & 3) != 0 && same < off));
-    if (!is_elsewhere) {
+    const bool is_past = is_seen_past(key, &rest);
+    const bool is_told = (is_elsewhere && (is_clear || ((key->moved & 3) != 0 && same < off))) ||
+                         (is_past && (key->past & 3) != 0);
+    if (!is_elsewhere && !is_past) {
         learn(frame, &rest, fit.x, key);
     }
     key->moved = (uint8_t)(key->moved << 1 | (is_elsewhere ? 1 : 0));
+    key->past = (uint8_t)(key->past << 1 | (is_past ? 1 : 0));
     memcpy(key->spread, spread, sizeof(spread));
     double way = 0.0;
     for (int c = 0; c < 3; c++) {
