@@ -11,9 +11,7 @@
 #include <string.h>
 
 enum {
-    STRAIGHT = 4, /* ways to a pixel's neighbours: along rows and columns, ... */
-    WAYS = 8,     /* ... and slanting ones, for corners */
-    GAP = 3       /* pixels between things, at most */
+    GAP = 3 /* pixels between things, at most */
 };
 
 static const float own_sigmas = 1.2533141f; /* per mean deviation: sqrt(pi / 2) */
@@ -85,14 +83,14 @@ void rlf_depart_follow(rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *se
     }
 }
 
-/* The other thing, from pixel i on in one of eight ways (four straight ones first), that is as deep;
- * 0: none. Between things there are pixels of none. */
+/* The other thing, from pixel i on in one of eight ways (four straight ones first), that is as
+ * deep; 0: none. Between things there are pixels of none. */
 static uint8_t thing_on(const rlf_reconstruct *stage, const float *depth, int32_t i, int32_t way)
 {
     const image_grid *grid = &stage->grid;
     const uint8_t *thing = stage->background.depart.thing;
-    static const int32_t ways[WAYS][2] = {{0, -1},  {-1, 0}, {1, 0},  {0, 1},
-                                          {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
+    static const int32_t ways[8][2] = {{0, -1},  {-1, 0}, {1, 0},  {0, 1},
+                                       {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
     const depth_step step = depth_step_make(&stage->def.rig.noise, grid->camera.fx);
     for (int32_t r = 1; r <= GAP; r++) {
         int32_t x = i % grid->width + r * ways[way][0], y = i / grid->width + r * ways[way][1];
@@ -139,10 +137,10 @@ static bool is_outline(const rlf_reconstruct *stage, const float *depth, const u
                        int32_t i)
 {
     int32_t own = 0, others = 0;
-    for (int32_t way = 0; way < WAYS && depth[i] > 0.0f; way++) {
+    for (int32_t way = 0; way < 8 && depth[i] > 0.0f; way++) {
         uint8_t thing = thing_on(stage, depth, i, way);
         own += departed[thing];
-        others += way < STRAIGHT && thing != 0 && !departed[thing];
+        others += way < 4 && thing != 0 && !departed[thing];
     }
     return own > 0 && others == 0;
 }

@@ -18,8 +18,7 @@
 enum {
     PASSES = 5,
     PERIOD = 8,        /* frames between two views that are kept: the older is 8 to 16 frames old */
-    MOVING_PERIOD = 4, /* while the camera moves: its end is seen earlier */
-    HOLD = 4,          /* frames that motion is taken to go on though it is not seen */
+    MOVING_PERIOD = 4, /* while the camera moves; motion is taken to go on unseen for as long */
     SURE_FRAMES = 2,   /* in a row */
     FEWEST_OF_PART = 8 /* points that tell anything */
 };
@@ -31,11 +30,11 @@ static const double rest_sigmas = 3.0;  /* what is nearer to rest than that is a
 static const double told_square = 64.0; /* sigmas of a part's motion, squared */
 static const double off_share = 0.25;   /* of the motion that a point may be off: it is curved */
 static const double least_gain = 0.5;   /* of a part's motion that must be gained over rest */
-static const double least_parts = 0.75; /* of the parts move, and more, */
-static const double least_whole = 0.65; /* or this share, which must determine all of the motion */
-static const double least_asked = 0.75; /* and of those that would show the motion more than this */
-static const double least_share = 3e-3; /* of the information, for a direction, ... */
-static const double least_own = 0.01;   /* ... and so much of that is not another direction's */
+/* More than this share of the parts moves, and of those that would show the motion; or, of all, the
+ * second share, which must then determine all of the motion. */
+static const double least_parts = 0.75, least_whole = 0.65;
+static const double least_share = 3e-3;  /* of the information, for a direction, ... */
+static const double least_own = 0.01;    /* ... and so much of that is not another direction's */
 static const double least_facing = 0.25; /* cosine: depth of a grazing face says little */
 static const double ridge = 3e-3;        /* of the information, for rest */
 
@@ -212,7 +211,7 @@ static bool is_everywhere(const ego_job *job, const ego_part parts[PARTS])
         asked += is_asked;
         moving += moves[k];
     }
-    const bool is_most = 3 * moving >= PARTS && moving > least_asked * asked;
+    const bool is_most = 3 * moving >= PARTS && moving > least_parts * asked;
     return is_most && (moving > least_parts * seen ||
                        (moving > least_whole * seen && is_determined(job, moves)));
 }
@@ -312,7 +311,7 @@ void rlf_ego_motion_watch(rlf_reconstruct *stage, const float *depth)
     ego->seen_frames = has ? ego->seen_frames + 1 : 0;
     if (has && (ego->moves || ego->seen_frames >= SURE_FRAMES)) {
         ego->moves = true;
-        ego->hold = HOLD;
+        ego->hold = MOVING_PERIOD;
     } else if (ego->moves) {
         ego->hold--;
         ego->moves = ego->hold > 0;

@@ -99,8 +99,7 @@ static void learn(const keyframe_frame *frame, const keyframe_fit *rest, const d
  * beyond what is rigid. Twice in three frames it has left. */
 static bool is_seen_past(const rlf_keyframe *key, const keyframe_fit *rest)
 {
-    return 2 * rest->points > key->point_count &&
-           2 * rest->agree < rest->points;
+    return 2 * rest->points > key->point_count && 2 * rest->agree < rest->points;
 }
 
 /* True when a thing that rested is told to move: twice in three frames it is elsewhere, and that
