@@ -7,6 +7,8 @@ set_tests_properties(docs.sentences PROPERTIES LABELS docs TIMEOUT 60)
 add_test(NAME docs.figures COMMAND ${CMAKE_CURRENT_LIST_DIR}/figures.sh ${PROJECT_SOURCE_DIR}
          ${CMAKE_CURRENT_BINARY_DIR}/figures)
 set_tests_properties(docs.figures PROPERTIES LABELS docs TIMEOUT 60)
+add_test(NAME docs.readme_code COMMAND ${CMAKE_CURRENT_LIST_DIR}/readme_code.sh ${PROJECT_SOURCE_DIR})
+set_tests_properties(docs.readme_code PROPERTIES LABELS docs TIMEOUT 60)
 if(TARGET relief_app)
   add_test(NAME docs.commands COMMAND ${CMAKE_CURRENT_LIST_DIR}/commands.sh ${PROJECT_SOURCE_DIR}
            ${PROJECT_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR}/docs)
