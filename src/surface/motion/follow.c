@@ -17,6 +17,7 @@ void keyframes_reset(velocity_planes *state)
     }
     state->next_thing = RLF_PIECES + 1;
 }
+
 rlf_keyframe *keyframe_find_free(velocity_planes *state)
 {
     for (int32_t i = 0; i < RLF_KEYFRAMES; i++) {
@@ -76,10 +77,10 @@ static void follow(const keyframe_frame *frame, double time_s, rlf_keyframe *key
 }
 
 /* The region's keyframe of the frame before, if it looks otherwise by now. */
-static const rlf_keyframe *find_left(const velocity_planes *state, int32_t label)
+static rlf_keyframe *find_left(velocity_planes *state, int32_t label)
 {
     for (int32_t i = 0; i < RLF_KEYFRAMES; i++) {
-        const rlf_keyframe *key = &state->keyframe[i];
+        rlf_keyframe *key = &state->keyframe[i];
         if (key->state == KEYFRAME_NONE && key->label == label && key->is_whole) {
             return key;
         }
@@ -91,9 +92,8 @@ static const rlf_keyframe *find_left(const velocity_planes *state, int32_t label
 static void take_region(rlf_reconstruct *stage, const rlf_slot *slot, const rlf_region *region)
 {
     static const double none[6] = {0};
-    const rlf_keyframe *left = find_left(&stage->velocity, region->label);
-    rlf_keyframe *key = left != NULL ? &stage->velocity.keyframe[left - stage->velocity.keyframe]
-                                     : keyframe_find_free(&stage->velocity);
+    rlf_keyframe *left = find_left(&stage->velocity, region->label);
+    rlf_keyframe *key = left != NULL ? left : keyframe_find_free(&stage->velocity);
     const rlf_rect rect = {region->x0, region->y0, region->x1, region->y1};
     const keyframe_view view = {&stage->grid,
                                 NULL,
@@ -103,19 +103,20 @@ static void take_region(rlf_reconstruct *stage, const rlf_slot *slot, const rlf_
                                 stage->work.raw,
                                 (const float *const *)slot->normal,
                                 rlf_kernel_noise_make(&stage->def.rig.noise)};
-    rlf_keyframe before = {.state = KEYFRAME_NONE};
-    if (left != NULL) {
-        before = *left;
+    if (key == NULL || keyframe_of_region(stage, region->label) != NULL) {
+        return;
     }
-    if (key == NULL || keyframe_of_region(stage, region->label) != NULL ||
-        !keyframe_take(&view, &rect, region->point_count, key)) {
+    const bool is_whole = left != NULL, has_stood = is_whole && left->has_stood;
+    double velocity[6];
+    memcpy(velocity, is_whole ? left->velocity : none, sizeof(velocity));
+    if (!keyframe_take(&view, &rect, region->point_count, key)) {
         return;
     }
     key->state = KEYFRAME_MOVES;
     key->label = region->label;
-    key->is_whole = before.is_whole;
-    key->has_stood = before.has_stood;
-    memcpy(key->velocity, before.velocity, sizeof(key->velocity));
+    key->is_whole = is_whole;
+    key->has_stood = has_stood;
+    memcpy(key->velocity, velocity, sizeof(velocity));
     keyframe_push(key, 1e-9 * (double)slot->surface.time_ns, none);
 }
 
