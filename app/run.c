@@ -18,7 +18,7 @@
 static rlf_result ask_for_source(run_options *o)
 {
 #ifdef RLF_HAVE_VIEWER
-    static viewer_choice choice;
+    static rlf_window_choice choice;
     const rlf_result result = start_page_choose(&choice);
     if (result == RLF_OK) {
         const bool has_scene = o->session.scene_path != NULL || choice.scene[0] == '\0';
@@ -199,7 +199,7 @@ static void choose_end(run_options *o)
     const bool is_kept = writes_something(o) || o->frame_count >= 0;
     o->session.is_played = !o->is_headless;
     if (!o->window.is_end_set) {
-        o->session.end = is_kept ? PLAYBACK_STOP : PLAYBACK_LOOP;
+        o->session.end = is_kept ? RLF_PLAYBACK_STOP : RLF_PLAYBACK_LOOP;
     }
 }
 

@@ -178,7 +178,7 @@ static bool take_end(const char *text, void *out)
 {
     run_options *o = out;
     o->window.is_end_set = true;
-    return playback_parse(text, &o->session.end);
+    return rlf_playback_parse(text, &o->session.end);
 }
 
 static bool take_overlay(const char *text, void *out)

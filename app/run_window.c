@@ -6,7 +6,7 @@
 #include "recent.h"
 #include "scene_list.h"
 #include "start_page.h"
-#include "viewer/viewer.h"
+#include "relief/window.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -17,7 +17,7 @@ typedef struct run_stage {
     session *session;
     run_output *output;
     body_models models;
-    char source[VIEWER_CHOICE_SOURCE], scene[VIEWER_CHOICE_SOURCE];
+    char source[RLF_WINDOW_SOURCE_SIZE], scene[RLF_WINDOW_SOURCE_SIZE];
     char settings[SETTINGS_MAX][64]; /* of the panel */
     int32_t first_setting;           /* those before are the command line's */
 } run_stage;
@@ -66,23 +66,37 @@ static void on_panel_ms(void *context, double ms)
     timing_add(&((run_stage *)context)->output->panel_ms, ms);
 }
 
-static int32_t on_scenes(void *context, viewer_choice *out)
+static int32_t on_scenes(void *context, rlf_window_choice *out)
 {
     return scene_list(((run_stage *)context)->options.session.scene_path, out);
 }
 
-static int32_t on_sources(void *context, viewer_choice *out)
+static int32_t on_sources(void *context, rlf_window_choice *out)
 {
     (void)context;
     return start_page_list(out);
 }
 
+static bool on_setting(void *context, int32_t index, const rlf_reconstruct_def *def,
+                       rlf_window_setting *out)
+{
+    (void)context;
+    if (index >= settings_count()) {
+        return false;
+    }
+    setting_view s;
+    settings_look(index, def, &s);
+    *out = (rlf_window_setting){s.name, s.meaning, s.words, s.is_switch, .need = s.need};
+    (void)snprintf(out->value, sizeof out->value, "%s", s.value);
+    return true;
+}
+
 /* ---- opening something else ----------------------------------------------------------------- */
 
-static void fill_stage(const session *s, const run_options *o, viewer_stage *out)
+static void fill_stage(const session *s, const run_options *o, rlf_window_stage *out)
 {
     const rlf_source_info *info = rlf_source_get_info(s->source);
-    *out = (viewer_stage){.pipeline = s->pipeline,
+    *out = (rlf_window_stage){.pipeline = s->pipeline,
                           .source = s->source,
                           .playback = s->playback,
                           .reconstruct = &s->reconstruct,
@@ -192,14 +206,14 @@ static rlf_result open_setting(run_stage *stage, const char *text)
     return result;
 }
 
-static rlf_result on_open(void *context, viewer_open what, const char *text, viewer_stage *out)
+static rlf_result on_open(void *context, rlf_window_opening what, const char *text, rlf_window_stage *out)
 {
     run_stage *stage = context;
     rlf_result result = RLF_OK;
     switch (what) {
-    case VIEWER_OPEN_SOURCE: result = open_source(stage, text); break;
-    case VIEWER_OPEN_SCENE: result = open_scene(stage, text); break;
-    case VIEWER_OPEN_SETTING: result = open_setting(stage, text); break;
+    case RLF_WINDOW_OPEN_SOURCE: result = open_source(stage, text); break;
+    case RLF_WINDOW_OPEN_SCENE: result = open_scene(stage, text); break;
+    case RLF_WINDOW_OPEN_SETTING: result = open_setting(stage, text); break;
     }
     if (result == RLF_OK) {
         fill_stage(stage->session, &stage->options, out);
@@ -209,7 +223,7 @@ static rlf_result on_open(void *context, viewer_open what, const char *text, vie
 
 /* ---- the window ----------------------------------------------------------------------------- */
 
-static void set_callbacks(viewer_options *viewer, run_stage *stage)
+static void set_callbacks(rlf_window_def *viewer, run_stage *stage)
 {
     viewer->on_frame = on_frame;
     viewer->on_picture = on_picture;
@@ -218,6 +232,7 @@ static void set_callbacks(viewer_options *viewer, run_stage *stage)
     viewer->on_status = on_status;
     viewer->on_open = on_open;
     viewer->on_model = on_model;
+    viewer->on_setting = on_setting;
     viewer->on_sources = on_sources;
     viewer->on_scenes = on_scenes;
     viewer->on_panel_ms = on_panel_ms;
@@ -241,7 +256,7 @@ rlf_result run_window(const run_options *o, session *s, run_output *output)
     stage.output = output;
     stage.first_setting = o->session.settings.count;
     recent_note(o->session.source);
-    viewer_options viewer = viewer_options_default();
+    rlf_window_def viewer = rlf_window_def_default();
     fill_stage(s, o, &viewer.stage);
     viewer.title = "Relief";
     viewer.frame_count = o->frame_count;
@@ -257,5 +272,5 @@ rlf_result run_window(const run_options *o, session *s, run_output *output)
     viewer.hides_panel = o->window.hides_panel;
     viewer.monitor = o->window.monitor;
     set_callbacks(&viewer, &stage);
-    return viewer_run(s->pipeline, &viewer);
+    return rlf_window_run(s->pipeline, &viewer);
 }

@@ -16,14 +16,14 @@ static int is_scene(const struct dirent *entry)
     return length > 5 && strcmp(entry->d_name + length - 5, ".json") == 0;
 }
 
-static int32_t list_folder(const char *folder, viewer_choice *out)
+static int32_t list_folder(const char *folder, rlf_window_choice *out)
 {
     struct dirent **entries = NULL;
     const int found = scandir(folder, &entries, is_scene, alphasort);
     int32_t count = 0;
     for (int i = 0; i < found; i++) {
-        if (count < VIEWER_CHOICES_MAX) {
-            viewer_choice *c = &out[count++];
+        if (count < RLF_WINDOW_CHOICES_MAX) {
+            rlf_window_choice *c = &out[count++];
             const char *name = entries[i]->d_name;
             (void)snprintf(c->source, sizeof(c->source), "%.700s/%.255s", folder, name);
             (void)snprintf(c->text, sizeof(c->text), "%.*s", (int)strlen(name) - 5, name);
@@ -45,10 +45,10 @@ static bool is_shipped(const scene_entry *entries, int32_t count, const char *pa
     return false;
 }
 
-int32_t scene_list(const char *scene_path, viewer_choice *out)
+int32_t scene_list(const char *scene_path, rlf_window_choice *out)
 {
     static scene_entry entries[SCENES_MAX];
-    char folder[VIEWER_CHOICE_SOURCE];
+    char folder[RLF_WINDOW_SOURCE_SIZE];
     int32_t count = 0;
     const int32_t shipped = scene_files_list(entries, SCENES_MAX);
     if (scene_path != NULL && !is_shipped(entries, shipped, scene_path)) {
@@ -58,8 +58,8 @@ int32_t scene_list(const char *scene_path, viewer_choice *out)
                        slash != NULL ? scene_path : ".");
         count = list_folder(folder, out);
     }
-    for (int32_t i = 0; i < shipped && count < VIEWER_CHOICES_MAX; i++) {
-        viewer_choice *c = &out[count++];
+    for (int32_t i = 0; i < shipped && count < RLF_WINDOW_CHOICES_MAX; i++) {
+        rlf_window_choice *c = &out[count++];
         (void)snprintf(c->source, sizeof(c->source), "%s", entries[i].path);
         (void)snprintf(c->text, sizeof(c->text), "%.95s", entries[i].name);
         c->scene[0] = '\0';
@@ -73,7 +73,7 @@ static bool is_source_there(const char *source)
     return strncmp(source, "synthetic:", 10) == 0 || access(source, R_OK) == 0;
 }
 
-int32_t scene_list_played(viewer_choice *out, int32_t capacity)
+int32_t scene_list_played(rlf_window_choice *out, int32_t capacity)
 {
     static scene_entry entries[SCENES_MAX];
     const int32_t found = scene_files_list(entries, SCENES_MAX);
@@ -83,7 +83,7 @@ int32_t scene_list_played(viewer_choice *out, int32_t capacity)
         if (e->source[0] == '\0' || !is_source_there(e->source)) {
             continue;
         }
-        viewer_choice *c = &out[count++];
+        rlf_window_choice *c = &out[count++];
         (void)snprintf(c->source, sizeof(c->source), "%s", e->source);
         (void)snprintf(c->scene, sizeof(c->scene), "%s", e->path);
         (void)snprintf(c->text, sizeof(c->text), "scene %.30s: %.56s", e->name, e->about);

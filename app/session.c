@@ -150,7 +150,7 @@ static rlf_result open_all(const session_options *options, session *s)
         result = open_map(options, s);
     }
     if (result == RLF_OK && options->is_played) {
-        result = playback_wrap(&s->source, options->end, &s->playback);
+        result = rlf_playback_wrap(&s->source, options->end, &s->playback);
     }
     return result == RLF_OK ? create_pipeline(options, s) : result;
 }

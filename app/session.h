@@ -2,7 +2,7 @@
 #ifndef RELIEF_APP_SESSION_H
 #define RELIEF_APP_SESSION_H
 
-#include "playback.h"
+#include "relief/playback.h"
 #include "recorder.h"
 #include "relief/io.h"
 #include "settings.h"
@@ -30,7 +30,7 @@ typedef struct session_options {
     bool no_real_shade, no_real_ambient;
     recorder_options record; /* of what the source gives; no path = not recorded */
     bool is_played;          /* by a playback, with this after the end */
-    playback_end end;
+    rlf_playback_end end;
     bool enable_render;
     bool enable_hands, enable_grab;
     rlf_camera_mode camera; /* default fixed */
@@ -45,7 +45,7 @@ typedef struct session {
     rlf_map *map; /* that is known; NULL = none */
     rlf_pipeline *pipeline;
     rlf_reconstruct_def reconstruct; /* that the pipeline was made with */
-    playback *playback;              /* the source's; NULL = it is not played */
+    rlf_playback *playback;              /* the source's; NULL = it is not played */
     recorder *recorder;              /* NULL = nothing is recorded; close it for its status */
 } session;
 

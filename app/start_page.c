@@ -20,18 +20,18 @@ static const char *end_of(const char *path)
     return length > most ? path + (length - most) : path;
 }
 
-int32_t start_page_list(viewer_choice *out)
+int32_t start_page_list(rlf_window_choice *out)
 {
     int32_t count = 0;
     rlf_source_entry cameras[CAMERAS_MAX];
     const int32_t found = rlf_source_list(cameras, CAMERAS_MAX);
     for (int32_t i = 0; i < found && i < CAMERAS_MAX; i++) {
-        viewer_choice *c = &out[count++];
+        rlf_window_choice *c = &out[count++];
         (void)snprintf(c->source, sizeof(c->source), "%.255s", cameras[i].source);
         c->scene[0] = '\0';
         (void)snprintf(c->text, sizeof(c->text), "camera: %.80s", cameras[i].description);
     }
-    viewer_choice *room = &out[count++];
+    rlf_window_choice *room = &out[count++];
     (void)snprintf(room->source, sizeof(room->source), "synthetic:room");
     room->scene[0] = '\0';
     (void)snprintf(room->text, sizeof(room->text), "simulated room%s",
@@ -39,7 +39,7 @@ int32_t start_page_list(viewer_choice *out)
     recent_list recent;
     recent_load(&recent);
     for (int32_t i = 0; i < recent.count; i++) {
-        viewer_choice *c = &out[count++];
+        rlf_window_choice *c = &out[count++];
         (void)snprintf(c->source, sizeof(c->source), "%.1023s", recent.paths[i]);
         c->scene[0] = '\0';
         (void)snprintf(c->text, sizeof(c->text), "recent: %s", end_of(recent.paths[i]));
@@ -47,14 +47,14 @@ int32_t start_page_list(viewer_choice *out)
     return count;
 }
 
-static int32_t list_choices(void *context, viewer_choice *out)
+static int32_t list_choices(void *context, rlf_window_choice *out)
 {
     (void)context;
     const int32_t count = start_page_list(out);
-    return count + scene_list_played(out + count, VIEWER_CHOICES_MAX - count);
+    return count + scene_list_played(out + count, RLF_WINDOW_CHOICES_MAX - count);
 }
 
-rlf_result start_page_choose(viewer_choice *out)
+rlf_result start_page_choose(rlf_window_choice *out)
 {
-    return viewer_choose(list_choices, NULL, &command_interrupted, out);
+    return rlf_window_choose(list_choices, NULL, &command_interrupted, out);
 }

@@ -1,5 +1,5 @@
 # Installs libraries, headers, the command and the scenes, with a CMake package (relief::relief,
-# relief::io, relief::gl) and pkg-config files (relief, relief_io, relief_gl).
+# relief::io, relief::gl, relief::window) and pkg-config files (relief, relief_io, ...).
 include(CMakePackageConfigHelpers)
 
 set(relief_package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/relief)
@@ -7,16 +7,19 @@ set(relief_pc_folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 file(RELATIVE_PATH relief_pc_to_prefix /prefix/${relief_pc_folder} /prefix)
 string(REGEX REPLACE "/$" "" relief_pc_to_prefix "${relief_pc_to_prefix}")
 
-# relief_pkg_config(NAME REQUIRES LIBS DESCRIPTION): writes NAME.pc. A static library hands its own
-# needs on to whoever links it; a shared one keeps them to itself.
-function(relief_pkg_config name requires libs description)
+# relief_pkg_config(NAME OWN REQUIRES LIBS DESCRIPTION): writes NAME.pc. OWN are libraries of Relief,
+# REQUIRES those of the system. A static library hands its own needs on to whoever links it; a shared
+# one keeps them to itself.
+function(relief_pkg_config name own requires libs description)
   set(private "")
   if(BUILD_SHARED_LIBS)
     set(private ".private")
   endif()
   set(base "")
-  if(NOT name STREQUAL "relief")
-    set(base "Requires: relief = ${PROJECT_VERSION}\n")
+  if(own)
+    list(TRANSFORM own APPEND " = ${PROJECT_VERSION}")
+    list(JOIN own ", " own)
+    set(base "Requires: ${own}\n")
   endif()
   set(needs "")
   if(requires)
@@ -24,7 +27,7 @@ function(relief_pkg_config name requires libs description)
   endif()
   if(base AND needs AND NOT private)
     set(base "")
-    set(needs "Requires: relief = ${PROJECT_VERSION} ${requires}\n")
+    set(needs "Requires: ${own}, ${requires}\n")
   endif()
   set(own_libs "")
   if(libs AND private)
@@ -72,16 +75,23 @@ function(relief_install target name)
           DESTINATION ${relief_package_folder})
 endfunction()
 
-set(relief_absent_headers io.h gl.h)
+set(relief_absent_headers io.h gl.h window.h)
 relief_install(relief relief)
-relief_pkg_config(relief "" "-lm -lpthread" "Virtual things touch what a depth camera sees: the core")
-foreach(component io gl)
+relief_pkg_config(relief "" "" "-lm -lpthread" "Virtual things touch what a depth camera sees: the core")
+foreach(component io gl window)
   if(NOT TARGET relief_${component})
     continue()
   endif()
   list(REMOVE_ITEM relief_absent_headers ${component}.h)
   relief_install(relief_${component} ${component})
   relief_packages(relief_${component} relief_finds modules)
+  set(own relief)
+  if(component STREQUAL "window")
+    set(own relief relief_gl relief_io)
+    string(APPEND relief_finds [[include("${CMAKE_CURRENT_LIST_DIR}/relief_gl.cmake")
+include("${CMAKE_CURRENT_LIST_DIR}/relief_io.cmake")
+]])
+  endif()
   configure_file(cmake/relief_component.cmake.in
                  ${PROJECT_BINARY_DIR}/relief_${component}.cmake @ONLY)
   install(FILES ${PROJECT_BINARY_DIR}/relief_${component}.cmake
@@ -91,7 +101,7 @@ foreach(component io gl)
     set(libs "")
   endif()
   list(JOIN libs " " libs)
-  relief_pkg_config(relief_${component} "${modules}" "${libs}" "Relief, component ${component}")
+  relief_pkg_config(relief_${component} "${own}" "${modules}" "${libs}" "Relief, component ${component}")
 endforeach()
 
 set(exclude "")

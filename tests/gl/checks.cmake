@@ -1,16 +1,8 @@
-# The viewer's tests: its sources are part of the command, so they are built in here, and they need a
-# display, which xvfb-run lends.
-if(NOT TARGET relief_gl OR NOT RELIEF_WITH_VIEWER)
+# The window's tests look inside librelief_window, and they need a display, which xvfb-run lends.
+if(NOT TARGET relief_window)
   return()
 endif()
-pkg_check_modules(glfw3 REQUIRED IMPORTED_TARGET glfw3)
 pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
-set(app ${PROJECT_SOURCE_DIR}/app)
-set(viewer ${app}/playback.c)
-foreach(part act area grab input lines marks message mouse open overlay panel_none place screen start throw viewer window
-             wishes)
-  list(APPEND viewer ${app}/viewer/${part}.c)
-endforeach()
 find_program(RELIEF_XVFB_RUN xvfb-run DOC "Lends the viewer's tests a display")
 set(launcher "")
 if(RELIEF_XVFB_RUN)
@@ -19,13 +11,13 @@ if(RELIEF_XVFB_RUN)
 endif()
 foreach(name viewer_test viewer_live_test viewer_play_test)
   string(REGEX REPLACE "_test$" "" what ${name})
-  add_executable(${name} ${CMAKE_CURRENT_LIST_DIR}/${name}.c ${viewer})
+  add_executable(${name} ${CMAKE_CURRENT_LIST_DIR}/${name}.c)
   relief_settings(${name})
   # setenv is POSIX.
   target_compile_definitions(${name} PRIVATE _POSIX_C_SOURCE=200809L)
-  target_include_directories(${name} PRIVATE ${app} ${PROJECT_SOURCE_DIR}/src)
-  target_link_libraries(${name} PRIVATE relief_gl relief PkgConfig::glfw3 PkgConfig::epoxy
-                        PkgConfig::cmocka m)
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(${name} PRIVATE relief_window relief_gl relief_io relief PkgConfig::glfw3
+                        PkgConfig::epoxy PkgConfig::cmocka m)
   add_test(NAME gl.${what} COMMAND ${launcher} $<TARGET_FILE:${name}>)
   # Window system and driver libraries are unloaded with memory they still hold.
   set_tests_properties(gl.${what} PROPERTIES LABELS gl TIMEOUT 1800

@@ -6,8 +6,8 @@
 #include <cmocka.h>
 
 #include "relief/synthetic.h"
-#include "viewer/start.h"
-#include "viewer/viewer.h"
+#include "relief/window.h"
+#include "relief/window.h"
 #include "viewer_drive.h"
 
 /* ---- a camera that stops -------------------------------------------------------------------- */
@@ -68,14 +68,15 @@ static void test_camera_stops(void **state)
     assert_int_equal(rlf_source_create_custom(&methods, &info, &s, &source), RLF_OK);
     rlf_pipeline_def def = rlf_pipeline_def_default(RLF_PROFILE_THESIS, source, NULL);
     assert_int_equal(rlf_pipeline_create(&def, &pipeline), RLF_OK);
-    viewer_options options = viewer_options_default();
+    rlf_window_def options = rlf_window_def_default();
+    options.hides_panel = true; /* clicks are on the whole window */
     options.stage.source_name = "camera";
     options.stage.source = source;
     options.frame_count = 10;
     options.use_gl = false;
     options.on_frame = play_stopping;
     options.context = &s;
-    assert_int_equal(viewer_run(pipeline, &options), RLF_OK);
+    assert_int_equal(rlf_window_run(pipeline, &options), RLF_OK);
     assert_int_equal(s.frames, 10);
     assert_int_equal(s.calls, 16);
     rlf_pipeline_destroy(&pipeline);
@@ -91,7 +92,7 @@ typedef struct page {
     double click_row;          /* < 0 = no click */
 } page;
 
-static int32_t list_choices(void *context, viewer_choice *out)
+static int32_t list_choices(void *context, rlf_window_choice *out)
 {
     page *p = context;
     const int32_t count = 2 + p->lists++; /* one more camera each time */
@@ -111,9 +112,9 @@ static int32_t list_choices(void *context, viewer_choice *out)
 
 static const char *choose(page p, rlf_result expected)
 {
-    static viewer_choice choice;
+    static rlf_window_choice choice;
     choice.source[0] = '\0';
-    const rlf_result result = viewer_choose(list_choices, &p, NULL, &choice);
+    const rlf_result result = rlf_window_choose(list_choices, &p, NULL, &choice);
     if (result != expected) {
         print_message("%s\n", rlf_error_text());
     }
@@ -140,8 +141,8 @@ static void test_start_page(void **state)
     assert_string_equal(choose((page){.first_key = GLFW_KEY_Q, .click_row = -1}, RLF_END), "");
     static const volatile sig_atomic_t interrupted = 1;
     page p = {.first_key = GLFW_KEY_H, .click_row = -1};
-    viewer_choice choice;
-    assert_int_equal(viewer_choose(list_choices, &p, &interrupted, &choice), RLF_END);
+    rlf_window_choice choice;
+    assert_int_equal(rlf_window_choose(list_choices, &p, &interrupted, &choice), RLF_END);
 }
 
 int main(void)

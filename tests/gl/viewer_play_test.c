@@ -6,10 +6,10 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "playback.h"
+#include "relief/playback.h"
 #include "relief/synthetic.h"
 #include "viewer/grab.h"
-#include "viewer/viewer.h"
+#include "relief/window.h"
 
 #include "viewer_drive.h"
 
@@ -40,17 +40,17 @@ static rlf_frame next(rlf_source *source)
 static void test_loop(void **state)
 {
     (void)state;
-    playback *p = NULL;
+    rlf_playback *p = NULL;
     rlf_source *source = open_room(3);
-    assert_int_equal(playback_wrap(&source, PLAYBACK_LOOP, &p), RLF_OK);
-    assert_int_equal(playback_get_index(p), -1);
+    assert_int_equal(rlf_playback_wrap(&source, RLF_PLAYBACK_LOOP, &p), RLF_OK);
+    assert_int_equal(rlf_playback_get_index(p), -1);
     int64_t last_ns = -1;
     for (int i = 0; i < 7; i++) {
         const rlf_frame frame = next(source);
         assert_true(frame.time_ns > last_ns);
         /* The cut is a time in which nobody knows what was: bodies wait. */
         assert_true(i == 0 || (frame.time_ns - last_ns > INT64_C(1000000000)) == (i % 3 == 0));
-        assert_int_equal(playback_get_index(p), i % 3);
+        assert_int_equal(rlf_playback_get_index(p), i % 3);
         last_ns = frame.time_ns;
     }
     rlf_source_destroy(&source);
@@ -59,16 +59,16 @@ static void test_loop(void **state)
 static void test_hold_and_stop(void **state)
 {
     (void)state;
-    playback *p = NULL;
+    rlf_playback *p = NULL;
     rlf_frame frame;
     rlf_source *source = open_room(2);
-    assert_int_equal(playback_wrap(&source, PLAYBACK_HOLD, &p), RLF_OK);
+    assert_int_equal(rlf_playback_wrap(&source, RLF_PLAYBACK_HOLD, &p), RLF_OK);
     (void)next(source);
     const rlf_frame last = next(source);
     const rlf_frame held = next(source);
     assert_ptr_equal(held.depth_u16, last.depth_u16);
     assert_int_equal((held.time_ns - last.time_ns) / 1000000, 33);
-    playback_set_end(p, PLAYBACK_STOP);
+    rlf_playback_set_end(p, RLF_PLAYBACK_STOP);
     assert_int_equal(rlf_source_next(source, &frame), RLF_END);
     assert_int_equal(rlf_source_restart(source), RLF_OK);
     assert_int_equal(next(source).time_ns, 0);
@@ -78,24 +78,24 @@ static void test_hold_and_stop(void **state)
 static void test_seek(void **state)
 {
     (void)state;
-    playback *p = NULL;
+    rlf_playback *p = NULL;
     rlf_source *source = open_room(20);
     rlf_source *plain = open_room(20);
-    assert_int_equal(playback_wrap(&source, PLAYBACK_LOOP, &p), RLF_OK);
-    assert_int_equal(playback_get_count(p), 20);
+    assert_int_equal(rlf_playback_wrap(&source, RLF_PLAYBACK_LOOP, &p), RLF_OK);
+    assert_int_equal(rlf_playback_get_count(p), 20);
     (void)next(source);
-    assert_int_equal(playback_seek(p, 17), RLF_OK);
+    assert_int_equal(rlf_playback_seek(p, 17), RLF_OK);
     const rlf_frame frame = next(source);
     rlf_frame expected = next(plain);
     for (int i = 0; i < 17; i++) {
         expected = next(plain);
     }
-    assert_int_equal(playback_get_index(p), 17);
+    assert_int_equal(rlf_playback_get_index(p), 17);
     for (int32_t y = 0; y < 100; y += 10) {
         const ptrdiff_t at = y * frame.depth_stride / 2;
         assert_memory_equal(frame.depth_u16 + at, expected.depth_u16 + at, 400);
     }
-    assert_int_equal(playback_seek(p, 20), RLF_ERROR_INVALID);
+    assert_int_equal(rlf_playback_seek(p, 20), RLF_ERROR_INVALID);
     rlf_source_destroy(&source);
     rlf_source_destroy(&plain);
 }
@@ -162,10 +162,10 @@ static void test_grab(void **state)
 
 typedef struct script {
     rlf_pipeline *pipeline;
-    playback *playback;
+    rlf_playback *playback;
     int64_t frames, index_after_seek;
     int32_t opened, models, bodies_end;
-    viewer_open what;
+    rlf_window_opening what;
     char path[64];
     rlf_vec3 picked, carried;
     bool picture_has_text;
@@ -184,7 +184,7 @@ static rlf_result save(void *context, const rlf_image_rgba8 *image, char *out, s
     return RLF_OK;
 }
 
-static rlf_result refuse(void *context, viewer_open what, const char *text, viewer_stage *out)
+static rlf_result refuse(void *context, rlf_window_opening what, const char *text, rlf_window_stage *out)
 {
     script *s = context;
     (void)out;
@@ -243,8 +243,8 @@ static rlf_result play_mouse(void *context, const rlf_pipeline_output *frame)
     case 20: glfwSetWindowSize(window(), 1, 1); break;
     case 22: glfwSetWindowSize(window(), 7680, 4320); break;
     case 24: glfwSetWindowSize(window(), 640, 360); break;
-    case 25: assert_int_equal(playback_seek(s->playback, 3), RLF_OK); break;
-    case 26: s->index_after_seek = playback_get_index(s->playback); break;
+    case 25: assert_int_equal(rlf_playback_seek(s->playback, 3), RLF_OK); break;
+    case 26: s->index_after_seek = rlf_playback_get_index(s->playback); break;
     default: break;
     }
     return RLF_OK;
@@ -258,10 +258,11 @@ static void test_mouse_and_drops(void **state)
     }
     script s = {.index_after_seek = -1};
     rlf_source *source = open_room(20); /* loops */
-    assert_int_equal(playback_wrap(&source, PLAYBACK_LOOP, &s.playback), RLF_OK);
+    assert_int_equal(rlf_playback_wrap(&source, RLF_PLAYBACK_LOOP, &s.playback), RLF_OK);
     rlf_pipeline_def def = rlf_pipeline_def_default(RLF_PROFILE_LIVE, source, NULL);
     assert_int_equal(rlf_pipeline_create(&def, &s.pipeline), RLF_OK);
-    viewer_options options = viewer_options_default();
+    rlf_window_def options = rlf_window_def_default();
+    options.hides_panel = true; /* clicks are on the whole window */
     options.stage.source_name = "synthetic:room";
     options.stage.playback = s.playback;
     options.frame_count = 28;
@@ -271,13 +272,13 @@ static void test_mouse_and_drops(void **state)
     options.on_open = refuse;
     options.on_model = give_model;
     options.context = &s;
-    assert_int_equal(viewer_run(s.pipeline, &options), RLF_OK);
+    assert_int_equal(rlf_window_run(s.pipeline, &options), RLF_OK);
     assert_int_equal(s.frames, 28);
     assert_true(s.carried.x > s.picked.x + 0.05);
     assert_false(s.picture_has_text);
     assert_int_equal(s.bodies_end, 0);
     assert_int_equal(s.opened, 1); /* and what was shown went on */
-    assert_int_equal(s.what, VIEWER_OPEN_SOURCE);
+    assert_int_equal(s.what, RLF_WINDOW_OPEN_SOURCE);
     assert_string_equal(s.path, "notes.txt");
     assert_int_equal(s.models, 1);
     assert_int_equal(s.index_after_seek, 3);
@@ -320,18 +321,19 @@ static void test_monitors(void **state)
     rlf_pipeline *pipeline = NULL;
     rlf_pipeline_def def = rlf_pipeline_def_default(RLF_PROFILE_THESIS, source, NULL);
     assert_int_equal(rlf_pipeline_create(&def, &pipeline), RLF_OK);
-    viewer_options options = viewer_options_default();
+    rlf_window_def options = rlf_window_def_default();
+    options.hides_panel = true; /* clicks are on the whole window */
     options.stage.source_name = "synthetic:room";
     options.frame_count = 6;
     options.use_gl = false;
     options.on_frame = play_screens;
     options.context = &s;
     options.is_fullscreen = true;
-    assert_int_equal(viewer_run(pipeline, &options), RLF_OK);
+    assert_int_equal(rlf_window_run(pipeline, &options), RLF_OK);
     assert_true(s.was_full);
     assert_false(s.is_full_after);
     options.monitor = 9;
-    assert_int_equal(viewer_run(pipeline, &options), RLF_ERROR_INVALID);
+    assert_int_equal(rlf_window_run(pipeline, &options), RLF_ERROR_INVALID);
     assert_non_null(strstr(rlf_error_text(), "no monitor 9: 1 is"));
     rlf_pipeline_destroy(&pipeline);
     rlf_source_destroy(&source);

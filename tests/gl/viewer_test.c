@@ -8,7 +8,7 @@
 
 #include "relief/gl.h"
 #include "relief/synthetic.h"
-#include "viewer/viewer.h"
+#include "relief/window.h"
 #include "viewer/place.h"
 #include "viewer/throw.h"
 
@@ -229,7 +229,8 @@ static void run_script(script *s, bool use_gl)
     assert_int_equal(rlf_synthetic_create(&synthetic, &source), RLF_OK);
     rlf_pipeline_def def = rlf_pipeline_def_default(RLF_PROFILE_THESIS, source, NULL);
     assert_int_equal(rlf_pipeline_create(&def, &pipeline), RLF_OK);
-    viewer_options options = viewer_options_default();
+    rlf_window_def options = rlf_window_def_default();
+    options.hides_panel = true; /* clicks are on the whole window */
     options.title = "Relief viewer test";
     options.stage.source_name = "synthetic:room";
     options.frame_count = 8;
@@ -240,7 +241,7 @@ static void run_script(script *s, bool use_gl)
     options.on_record = take_recording;
     options.on_status = tell_recording;
     options.context = s;
-    rlf_result result = viewer_run(pipeline, &options);
+    rlf_result result = rlf_window_run(pipeline, &options);
     if (result != RLF_OK) {
         print_message("%s\n", rlf_error_text());
     }
@@ -334,14 +335,15 @@ static void test_place_in_window(void **state)
     pipeline_def.scene = &scene;
     assert_int_equal(rlf_pipeline_create(&pipeline_def, &pipeline), RLF_OK);
     placing s = {.frames = 0};
-    viewer_options options = viewer_options_default();
+    rlf_window_def options = rlf_window_def_default();
+    options.hides_panel = true; /* clicks are on the whole window */
     options.stage.source_name = "synthetic:room";
     options.frame_count = 15;
     options.use_gl = false;
     options.on_frame = play_placing;
     options.on_scene = keep_scene;
     options.context = &s;
-    assert_int_equal(viewer_run(pipeline, &options), RLF_OK);
+    assert_int_equal(rlf_window_run(pipeline, &options), RLF_OK);
     assert_int_equal(s.frames, 15);
     assert_int_equal(s.saved_count, 1);
     assert_true(s.saved.has_pose && s.saved.point_count == 0);
@@ -376,8 +378,9 @@ static void test_no_display(void **state)
         assert_int_equal(rlf_synthetic_create(&synthetic, &source), RLF_OK);
         rlf_pipeline_def def = rlf_pipeline_def_default(RLF_PROFILE_THESIS, source, NULL);
         assert_int_equal(rlf_pipeline_create(&def, &pipeline), RLF_OK);
-        viewer_options options = viewer_options_default();
-        assert_int_equal(viewer_run(pipeline, &options), RLF_ERROR_DEVICE);
+        rlf_window_def options = rlf_window_def_default();
+    options.hides_panel = true; /* clicks are on the whole window */
+        assert_int_equal(rlf_window_run(pipeline, &options), RLF_ERROR_DEVICE);
         assert_non_null(strstr(rlf_error_text(), "--headless"));
         assert_null(strchr(rlf_error_text(), '\n'));
         rlf_pipeline_destroy(&pipeline);

@@ -1,5 +1,5 @@
 /* The window's loop: frames at the source's pace, and when to draw what. */
-#include "viewer/viewer.h"
+#include "relief/window.h"
 
 #include "viewer/state.h"
 
@@ -11,9 +11,9 @@
 #define GAP_MAX_S 0.25
 #define SMOOTHING 0.1 /* of figures on screen: weight of the newest frame */
 
-viewer_options viewer_options_default(void)
+rlf_window_def rlf_window_def_default(void)
 {
-    viewer_options options = {0};
+    rlf_window_def options = {0};
     options.title = "Relief";
     options.stage.source_name = "";
     options.stage.scene_name = "";
@@ -80,12 +80,24 @@ static void note_gap(viewer *v, int64_t before_ns)
     }
 }
 
+/* The next frame, of the source or of the program's own camera, through the pipeline. */
+static rlf_result advance(viewer *v)
+{
+    const rlf_window_def *o = v->options;
+    rlf_frame frame = {0};
+    if (o->next == NULL) {
+        return rlf_pipeline_step(v->stage.pipeline, &v->frame);
+    }
+    const rlf_result result = o->next(o->context, &frame);
+    return result == RLF_OK ? rlf_pipeline_push(v->stage.pipeline, &frame, &v->frame) : result;
+}
+
 static rlf_result step(viewer *v)
 {
     schedule_next(v, rlf_clock_ns());
     viewer_grab_pull(&v->grab, rlf_pipeline_get_world(v->stage.pipeline), v->gap_s);
     const int64_t before_ns = v->frame.frame.time_ns;
-    rlf_result result = rlf_pipeline_step(v->stage.pipeline, &v->frame);
+    rlf_result result = advance(v);
     if (result == RLF_NO_FRAME) {
         note_silence(v);
         return RLF_OK;
@@ -112,6 +124,7 @@ static rlf_result step(viewer *v)
     note_times(v);
     viewer_note_plot(v);
     v->frames_done++;
+    viewer_record_frame(v);
     return v->options->on_frame != NULL ? v->options->on_frame(v->options->context, &v->frame)
                                         : RLF_OK;
 }
@@ -168,7 +181,7 @@ static void present(viewer *v)
 
 static bool is_done(const viewer *v)
 {
-    const viewer_options *o = v->options;
+    const rlf_window_def *o = v->options;
     return viewer_window_should_close(&v->window) ||
            (o->interrupted != NULL && *o->interrupted != 0) ||
            (o->frame_count >= 0 && v->frames_done >= o->frame_count);
@@ -232,7 +245,7 @@ static viewer_window_size first_size(const viewer *v)
     return size;
 }
 
-static void begin(viewer *v, rlf_pipeline *pipeline, const viewer_options *options)
+static void begin(viewer *v, rlf_pipeline *pipeline, const rlf_window_def *options)
 {
     memset(v, 0, sizeof *v);
     v->stage = options->stage;
@@ -264,16 +277,18 @@ static rlf_result run_in_window(viewer *v)
         return result;
     }
     v->panel = viewer_panel_create(v);
+    viewer_screen_watch(&v->window); /* imgui has put its own, empty callback in its place */
     viewer_choose_renderer(v);
     v->due_ns = rlf_clock_ns();
     result = run_loop(v);
+    viewer_end_recording(v);
     viewer_panel_destroy(&v->panel);
     /* The GL renderer lives in the window's context and must go before it. */
     rlf_result soft_result = rlf_pipeline_set_compositor(v->stage.pipeline, NULL);
     return result == RLF_OK ? soft_result : result;
 }
 
-rlf_result viewer_run(rlf_pipeline *pipeline, const viewer_options *options)
+rlf_result rlf_window_run(rlf_pipeline *pipeline, const rlf_window_def *options)
 {
     static viewer v; /* large: all lines */
     begin(&v, pipeline, options);

@@ -1,5 +1,5 @@
 /* Playing a recording: loops, holds and seeks behind the frame loop's back. */
-#include "playback.h"
+#include "relief/playback.h"
 
 #include <string.h>
 
@@ -9,9 +9,9 @@
 #define CUT_S 2.0
 #define CUT_FRAMES 20.0
 
-struct playback {
+struct rlf_playback {
     rlf_source *source;
-    playback_end end;
+    rlf_playback_end end;
     rlf_frame last; /* its planes are the source's until its next frame */
     bool has_last, is_cut;
     int64_t index;      /* of `last` */
@@ -21,30 +21,30 @@ struct playback {
 
 static const char *const end_names[] = {"stop", "loop", "hold"};
 
-bool playback_parse(const char *text, playback_end *out)
+bool rlf_playback_parse(const char *text, rlf_playback_end *out)
 {
     for (int i = 0; i < 3; i++) {
         if (strcmp(text, end_names[i]) == 0) {
-            *out = (playback_end)i;
+            *out = (rlf_playback_end)i;
             return true;
         }
     }
     return false;
 }
 
-const char *playback_name(playback_end end)
+const char *rlf_playback_name(rlf_playback_end end)
 {
     return end_names[end];
 }
 
-static double frames_per_second(const playback *p)
+static double frames_per_second(const rlf_playback *p)
 {
     const double fps = rlf_source_get_info(p->source)->frames_per_second;
     return fps > 0.0 ? fps : 30.0;
 }
 
 /* Time goes on by two seconds, however far the two frames are apart. */
-static void join(playback *p, rlf_frame *frame)
+static void join(rlf_playback *p, rlf_frame *frame)
 {
     if (p->is_cut && p->has_last) {
         const double cut_s = rlf_max(CUT_S, CUT_FRAMES / frames_per_second(p));
@@ -54,7 +54,7 @@ static void join(playback *p, rlf_frame *frame)
     frame->time_ns += p->offset_ns;
 }
 
-static rlf_result take(playback *p, rlf_frame *out)
+static rlf_result take(rlf_playback *p, rlf_frame *out)
 {
     rlf_result result = rlf_source_next(p->source, out);
     if (result == RLF_OK) {
@@ -66,7 +66,7 @@ static rlf_result take(playback *p, rlf_frame *out)
     return result;
 }
 
-static rlf_result hold(playback *p, rlf_frame *out)
+static rlf_result hold(rlf_playback *p, rlf_frame *out)
 {
     p->last.time_ns += (int64_t)(NS_PER_S / frames_per_second(p));
     p->is_cut = true;
@@ -76,12 +76,12 @@ static rlf_result hold(playback *p, rlf_frame *out)
 
 static rlf_result playback_next(void *self, rlf_frame *out)
 {
-    playback *p = self;
+    rlf_playback *p = self;
     rlf_result result = take(p, out);
-    if (result != RLF_END || !p->has_last || p->end == PLAYBACK_STOP) {
+    if (result != RLF_END || !p->has_last || p->end == RLF_PLAYBACK_STOP) {
         return result;
     }
-    if (p->end == PLAYBACK_LOOP && rlf_source_restart(p->source) == RLF_OK) {
+    if (p->end == RLF_PLAYBACK_LOOP && rlf_source_restart(p->source) == RLF_OK) {
         p->is_cut = true;
         p->next_index = 0;
         result = take(p, out);
@@ -91,7 +91,7 @@ static rlf_result playback_next(void *self, rlf_frame *out)
 
 static rlf_result playback_restart(void *self)
 {
-    playback *p = self;
+    rlf_playback *p = self;
     const rlf_result result = rlf_source_restart(p->source);
     if (result == RLF_OK) {
         p->has_last = false;
@@ -104,27 +104,27 @@ static rlf_result playback_restart(void *self)
 
 static const rlf_truth *playback_truth(void *self)
 {
-    return rlf_source_get_truth(((playback *)self)->source);
+    return rlf_source_get_truth(((rlf_playback *)self)->source);
 }
 
 static void playback_status(void *self, rlf_source_status *out)
 {
-    *out = rlf_source_get_status(((playback *)self)->source);
+    *out = rlf_source_get_status(((rlf_playback *)self)->source);
 }
 
 static void playback_destroy(void *self)
 {
-    playback *p = self;
+    rlf_playback *p = self;
     rlf_source_destroy(&p->source);
     rlf_free(p);
 }
 
 static rlf_result playback_go(void *self, int64_t index)
 {
-    return playback_seek(self, index);
+    return rlf_playback_seek(self, index);
 }
 
-rlf_result playback_wrap(rlf_source **source, playback_end end, playback **out)
+rlf_result rlf_playback_wrap(rlf_source **source, rlf_playback_end end, rlf_playback **out)
 {
     static const rlf_source_methods methods = {.next = playback_next,
                                                .restart = playback_restart,
@@ -138,11 +138,11 @@ rlf_result playback_wrap(rlf_source **source, playback_end end, playback **out)
     if (info.is_live) {
         return RLF_OK;
     }
-    playback *p = rlf_alloc(sizeof(*p));
+    rlf_playback *p = rlf_alloc(sizeof(*p));
     if (p == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    *p = (playback){.source = *source, .end = end, .index = -1};
+    *p = (rlf_playback){.source = *source, .end = end, .index = -1};
     rlf_source *played = NULL;
     const rlf_result result = rlf_source_create_custom(&methods, &info, p, &played);
     if (result != RLF_OK) {
@@ -155,28 +155,28 @@ rlf_result playback_wrap(rlf_source **source, playback_end end, playback **out)
     return RLF_OK;
 }
 
-void playback_set_end(playback *p, playback_end end)
+void rlf_playback_set_end(rlf_playback *p, rlf_playback_end end)
 {
     p->end = end;
 }
 
-playback_end playback_get_end(const playback *p)
+rlf_playback_end rlf_playback_get_end(const rlf_playback *p)
 {
     return p->end;
 }
 
-int64_t playback_get_index(const playback *p)
+int64_t rlf_playback_get_index(const rlf_playback *p)
 {
     return p->index;
 }
 
-int64_t playback_get_count(const playback *p)
+int64_t rlf_playback_get_count(const rlf_playback *p)
 {
     const rlf_source_info *info = rlf_source_get_info(p->source);
     return info->can_seek ? info->frame_count : -1;
 }
 
-rlf_result playback_seek(playback *p, int64_t index)
+rlf_result rlf_playback_seek(rlf_playback *p, int64_t index)
 {
     const rlf_result result = rlf_source_seek(p->source, index);
     if (result == RLF_OK) {

@@ -1,14 +1,15 @@
 /* What the parts of the window share: its state, its text and what its user wishes. */
-#ifndef RELIEF_APP_VIEWER_STATE_H
-#define RELIEF_APP_VIEWER_STATE_H
+#ifndef RLF_VIEWER_STATE_H
+#define RLF_VIEWER_STATE_H
 
 #include "viewer/grab.h"
 #include "viewer/panel.h"
 #include "viewer/place.h"
-#include "viewer/viewer.h"
+#include "relief/window.h"
 #include "viewer/window.h"
 
 #include "relief/gl.h"
+#include "relief/io.h"
 
 #define VIEWER_NS_PER_S 1000000000.0
 #define VIEWER_LINES_MAX 32 /* of text over the picture */
@@ -28,8 +29,8 @@ typedef struct viewer_message {
 } viewer_message;
 
 typedef struct viewer {
-    viewer_stage stage;
-    const viewer_options *options;
+    rlf_window_stage stage;
+    const rlf_window_def *options;
     rlf_gl_presenter *presenter;
     viewer_window window;
     const char *renderer; /* name on screen */
@@ -61,6 +62,8 @@ typedef struct viewer {
     double panel_ms;        /* cost of the last picture's */
     viewer_message messages[VIEWER_MESSAGES_MAX]; /* the newest first */
     int32_t message_count;
+    rlf_recording *recording; /* of the window's own; NULL = none */
+    char recording_path[64];
     char lines[VIEWER_LINES_MAX][VIEWER_LINE_SIZE];
     viewer_mark line_marks[VIEWER_LINES_MAX]; /* before their text */
     int32_t line_count;
@@ -107,16 +110,21 @@ void viewer_draw_overlay(viewer *v, int32_t width, int32_t height);
 /* act.c: what keys, mouse and panel may all ask for. */
 void viewer_choose_renderer(viewer *v); /* of a new pipeline */
 void viewer_set_view(viewer *v, rlf_view view);
-void viewer_set_end(viewer *v, playback_end end);
+void viewer_set_end(viewer *v, rlf_playback_end end);
 void viewer_restart(viewer *v);
 void viewer_toggle_pause(viewer *v);
-void viewer_save_picture(viewer *v); /* without the lines of text */
-void viewer_toggle_record(viewer *v);
 void viewer_seek_to(viewer *v, double share);
+
+/* save.c: pictures, without the lines of text, and recordings. */
+void viewer_save_picture(viewer *v);
+void viewer_toggle_record(viewer *v);
+void viewer_record_frame(viewer *v); /* the last one, if a recording of the window's own goes on */
+void viewer_end_recording(viewer *v);
+bool viewer_describe_recording(const viewer *v, char *out, size_t size); /* false: none goes on */
 
 /* open.c: what was dropped, or chosen in the panel. */
 void viewer_open_path(viewer *v, const char *path);
-bool viewer_open_stage(viewer *v, viewer_open what, const char *text);
+bool viewer_open_stage(viewer *v, rlf_window_opening what, const char *text);
 
 /* mouse.c: throws, picks up, deletes. */
 void viewer_press(viewer *v, viewer_wishes *wishes);

@@ -12,13 +12,13 @@ static bool ends_with(const char *text, const char *end)
 }
 
 /* Looks at what was opened from its first frame on. */
-static void begin_stage(viewer *v, const viewer_stage *stage)
+static void begin_stage(viewer *v, const rlf_window_stage *stage)
 {
-    const playback_end end =
-        v->stage.playback != NULL ? playback_get_end(v->stage.playback) : PLAYBACK_LOOP;
+    const rlf_playback_end end =
+        v->stage.playback != NULL ? rlf_playback_get_end(v->stage.playback) : RLF_PLAYBACK_LOOP;
     v->stage = *stage;
     if (stage->playback != NULL) {
-        playback_set_end(stage->playback, end);
+        rlf_playback_set_end(stage->playback, end);
     }
     memset(&v->frame, 0, sizeof v->frame);
     v->has_frame = false;
@@ -34,9 +34,9 @@ static void begin_stage(viewer *v, const viewer_stage *stage)
     viewer_set_view(v, v->view);
 }
 
-bool viewer_open_stage(viewer *v, viewer_open what, const char *text)
+bool viewer_open_stage(viewer *v, rlf_window_opening what, const char *text)
 {
-    viewer_stage stage = v->stage;
+    rlf_window_stage stage = v->stage;
     if (v->options->on_open == NULL) {
         viewer_show_error(v, "nothing else can be opened here");
         return false;
@@ -74,6 +74,6 @@ void viewer_open_path(viewer *v, const char *path)
         open_model(v, path);
     } else {
         const bool is_scene = ends_with(path, ".json");
-        (void)viewer_open_stage(v, is_scene ? VIEWER_OPEN_SCENE : VIEWER_OPEN_SOURCE, path);
+        (void)viewer_open_stage(v, is_scene ? RLF_WINDOW_OPEN_SCENE : RLF_WINDOW_OPEN_SOURCE, path);
     }
 }

@@ -6,7 +6,7 @@
 
 static void look(viewer_panel *p)
 {
-    const viewer_options *o = p->v->options;
+    const rlf_window_def *o = p->v->options;
     p->source_count = o->on_sources != nullptr ? o->on_sources(o->context, p->sources) : 0;
     p->scene_count = o->on_scenes != nullptr ? o->on_scenes(o->context, p->scenes) : 0;
     p->has_lists = true;
@@ -14,7 +14,7 @@ static void look(viewer_panel *p)
 
 /* A list to choose from; what is typed below may be any other. */
 static void draw_choices(viewer_panel *p, const char *label, const char *now,
-                         const viewer_choice *choices, int count, panel_wish wish)
+                         const rlf_window_choice *choices, int count, panel_wish wish)
 {
     if (!ImGui::BeginCombo(label, now)) {
         return;
@@ -35,7 +35,7 @@ static void draw_choices(viewer_panel *p, const char *label, const char *now,
 static void draw_path(viewer_panel *p, const char *label, const char *hint, char *text,
                       panel_wish wish)
 {
-    if (ImGui::InputTextWithHint(label, hint, text, VIEWER_CHOICE_SOURCE,
+    if (ImGui::InputTextWithHint(label, hint, text, RLF_WINDOW_SOURCE_SIZE,
                                  ImGuiInputTextFlags_EnterReturnsTrue) &&
         text[0] != '\0') {
         panel_wish_for(p, wish, text);
@@ -59,16 +59,16 @@ static void draw_playing(viewer_panel *p)
     if (ImGui::Button("Start again")) {
         viewer_restart(v);
     }
-    playback *played = v->stage.playback;
+    rlf_playback *played = v->stage.playback;
     if (played == nullptr) {
         return;
     }
-    int end = playback_get_end(played);
+    int end = rlf_playback_get_end(played);
     if (ImGui::Combo("at the end", &end, ends, 3)) {
-        viewer_set_end(v, (playback_end)end);
+        viewer_set_end(v, (rlf_playback_end)end);
     }
-    const int64_t count = playback_get_count(played);
-    int index = (int)playback_get_index(played);
+    const int64_t count = rlf_playback_get_count(played);
+    int index = (int)rlf_playback_get_index(played);
     if (count > 1 && ImGui::SliderInt("frame", &index, 0, (int)count - 1)) {
         viewer_seek_to(v, (double)index / (double)(count - 1));
     }
@@ -76,7 +76,7 @@ static void draw_playing(viewer_panel *p)
 
 void panel_draw_source(viewer_panel *p)
 {
-    const viewer_stage *stage = &p->v->stage;
+    const rlf_window_stage *stage = &p->v->stage;
     const char *scene = stage->scene_name[0] != '\0' ? name_of(stage->scene_name) : "two cubes";
     if (!p->has_lists) {
         look(p);
@@ -91,9 +91,8 @@ void panel_draw_source(viewer_panel *p)
 
 void panel_draw_record(viewer_panel *p)
 {
-    const viewer_options *o = p->v->options;
     char text[VIEWER_LINE_SIZE];
-    const bool is_on = o->on_status != nullptr && o->on_status(o->context, text, sizeof text);
+    const bool is_on = viewer_describe_recording(p->v, text, sizeof text);
     if (ImGui::Button(is_on ? "Stop recording" : "Record")) {
         viewer_toggle_record(p->v);
     }

@@ -46,14 +46,14 @@ void panel_draw_view(viewer_panel *p)
     ImGui::Checkbox("keys", &v->shows_help);
 }
 
-static void wish_setting(viewer_panel *p, const setting_view *s, const char *value)
+static void wish_setting(viewer_panel *p, const rlf_window_setting *s, const char *value)
 {
     char text[96];
     snprintf(text, sizeof text, "%s=%s", s->name, value);
     panel_wish_for(p, PANEL_SETTING, text);
 }
 
-static void draw_words(viewer_panel *p, const setting_view *s)
+static void draw_words(viewer_panel *p, const rlf_window_setting *s)
 {
     if (!ImGui::BeginCombo(s->name, s->value)) {
         return;
@@ -66,7 +66,7 @@ static void draw_words(viewer_panel *p, const setting_view *s)
     ImGui::EndCombo();
 }
 
-static void draw_setting(viewer_panel *p, const setting_view *s)
+static void draw_setting(viewer_panel *p, const rlf_window_setting *s)
 {
     if (s->is_switch) {
         bool is_on = strcmp(s->value, "on") == 0;
@@ -92,17 +92,17 @@ static void draw_setting(viewer_panel *p, const setting_view *s)
 
 void panel_draw_settings(viewer_panel *p)
 {
+    const rlf_window_def *o = p->v->options;
     const rlf_reconstruct_def *def = p->v->stage.reconstruct;
-    if (def == nullptr) {
+    if (def == nullptr || o->on_setting == nullptr) {
         return;
     }
     panel_note("How depth becomes a surface. A change begins the scene again.");
     if (ImGui::Button("As the profile has them")) {
         panel_wish_for(p, PANEL_SETTING, "");
     }
-    for (int i = 0; i < settings_count(); i++) {
-        setting_view s;
-        settings_look(i, def, &s);
+    rlf_window_setting s;
+    for (int i = 0; o->on_setting(o->context, i, def, &s); i++) {
         ImGui::PushID(i);
         draw_setting(p, &s);
         ImGui::PopID();

@@ -85,7 +85,7 @@ static void draw_plot(viewer *v, int32_t width, int32_t height, int32_t bottom, 
 
 static bool has_seek_bar(const viewer *v)
 {
-    return v->stage.playback != NULL && playback_get_count(v->stage.playback) > 1;
+    return v->stage.playback != NULL && rlf_playback_get_count(v->stage.playback) > 1;
 }
 
 /* The bar in a window, or a framebuffer, of that size. */
@@ -111,7 +111,7 @@ static void draw_seek_bar(viewer *v, int32_t width, int32_t height, int32_t scal
     const uint8_t back[4] = {0, 0, 0, 150};
     const uint8_t left[4] = {110, 110, 110, 230};
     const uint8_t done[4] = {250, 190, 70, 230};
-    const playback *p = v->stage.playback;
+    const rlf_playback *p = v->stage.playback;
     const mark_rect r = seek_rect(width, height);
     const int32_t w = r.x1 - r.x0;
     const int32_t h = r.y1 - r.y0;
@@ -119,13 +119,13 @@ static void draw_seek_bar(viewer *v, int32_t width, int32_t height, int32_t scal
     if (w < 1 || h < 1 || !viewer_clear_image(&v->marks, &v->marks_size, w, h)) {
         return;
     }
-    const int64_t count = playback_get_count(p);
-    const int64_t index = playback_get_index(p) > 0 ? playback_get_index(p) : 0;
+    const int64_t count = rlf_playback_get_count(p);
+    const int64_t index = rlf_playback_get_index(p) > 0 ? rlf_playback_get_index(p) : 0;
     fill(&v->marks, (mark_rect){0, 0, w, h}, back);
     fill(&v->marks, (mark_rect){0, h - (h + 3) / 4, w, h}, left);
     fill(&v->marks, (mark_rect){0, h - (h + 3) / 4, (int32_t)(index * w / (count - 1)), h}, done);
     (void)snprintf(text, sizeof text, "%lld of %lld  %s", (long long)index, (long long)count - 1,
-                   playback_name(playback_get_end(p)));
+                   rlf_playback_name(rlf_playback_get_end(p)));
     (void)rlf_draw_text(&v->marks, MARGIN * scale, (3 * h / 4 - 7 * scale) / 2, scale, text);
     rlf_gl_presenter_draw_over(v->presenter, &v->marks, r.x0, r.y0, height);
 }

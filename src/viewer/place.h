@@ -1,7 +1,7 @@
 /* Placing models over real things in the window: points picked one after the other, a pose from
  * them, and nudges. Knows no window, so that tests can drive it. */
-#ifndef RELIEF_APP_VIEWER_PLACE_H
-#define RELIEF_APP_VIEWER_PLACE_H
+#ifndef RLF_VIEWER_PLACE_H
+#define RLF_VIEWER_PLACE_H
 
 #include "relief/pipeline.h"
 

@@ -1,11 +1,10 @@
 /* What the parts of the panel share. C++, for Dear ImGui. */
-#ifndef RELIEF_APP_VIEWER_PANEL_PARTS_H
-#define RELIEF_APP_VIEWER_PANEL_PARTS_H
+#ifndef RLF_VIEWER_PANEL_PARTS_H
+#define RLF_VIEWER_PANEL_PARTS_H
 
 #include <imgui.h>
 
 extern "C" {
-#include "settings.h"
 #include "viewer/state.h"
 }
 
@@ -15,13 +14,13 @@ enum panel_wish { PANEL_NOTHING, PANEL_SOURCE, PANEL_SCENE, PANEL_SETTING, PANEL
 struct viewer_panel {
     viewer *v;
     float scale; /* of fine screens */
-    viewer_choice sources[VIEWER_CHOICES_MAX], scenes[VIEWER_CHOICES_MAX];
+    rlf_window_choice sources[RLF_WINDOW_CHOICES_MAX], scenes[RLF_WINDOW_CHOICES_MAX];
     int source_count, scene_count;
     bool has_lists;
-    char source[VIEWER_CHOICE_SOURCE], scene[VIEWER_CHOICE_SOURCE], model[VIEWER_CHOICE_SOURCE];
+    char source[RLF_WINDOW_SOURCE_SIZE], scene[RLF_WINDOW_SOURCE_SIZE], model[RLF_WINDOW_SOURCE_SIZE];
     rlf_vec3 down; /* unit; where gravity pulls to, also while it is off */
     panel_wish wish;
-    char wished[VIEWER_CHOICE_SOURCE];
+    char wished[RLF_WINDOW_SOURCE_SIZE];
 };
 
 void panel_wish_for(viewer_panel *p, panel_wish wish, const char *text);

@@ -1,6 +1,6 @@
 /* A GLFW window with an OpenGL context, and what the user did in it. */
-#ifndef RELIEF_APP_VIEWER_WINDOW_H
-#define RELIEF_APP_VIEWER_WINDOW_H
+#ifndef RLF_VIEWER_WINDOW_H
+#define RLF_VIEWER_WINDOW_H
 
 #include "relief/base.h"
 

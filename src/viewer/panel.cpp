@@ -5,7 +5,6 @@
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 
-#include <new>
 #include <stdio.h>
 #include <string.h>
 
@@ -33,10 +32,11 @@ viewer_panel *viewer_panel_create(struct viewer *v)
     if (glfwGetWindowAttrib(window, GLFW_CLIENT_API) != GLFW_OPENGL_API) {
         return nullptr; /* imgui's loader knows desktop OpenGL alone */
     }
-    viewer_panel *p = new (std::nothrow) viewer_panel();
+    viewer_panel *p = (viewer_panel *)rlf_alloc(sizeof *p);
     if (p == nullptr) {
         return nullptr;
     }
+    memset(p, 0, sizeof *p);
     p->v = v;
     p->down = rlf_vec3_make(0.0, 1.0, 0.0);
     float scale_y = 1.0f;
@@ -47,7 +47,7 @@ viewer_panel *viewer_panel_create(struct viewer *v)
     if (!ImGui_ImplOpenGL3_Init("#version 330")) {
         ImGui_ImplGlfw_Shutdown();
         ImGui::DestroyContext();
-        delete p;
+        rlf_free(p);
         return nullptr;
     }
     set_style(p->scale);
@@ -62,7 +62,7 @@ void viewer_panel_destroy(viewer_panel **panel)
     ImGui_ImplOpenGL3_Shutdown();
     ImGui_ImplGlfw_Shutdown();
     ImGui::DestroyContext();
-    delete *panel;
+    rlf_free(*panel);
     *panel = nullptr;
 }
 
@@ -169,9 +169,9 @@ static void fulfil(viewer_panel *p)
     p->wish = PANEL_NOTHING;
     switch (wish) {
     case PANEL_NOTHING: break;
-    case PANEL_SOURCE: (void)viewer_open_stage(p->v, VIEWER_OPEN_SOURCE, p->wished); break;
-    case PANEL_SCENE: (void)viewer_open_stage(p->v, VIEWER_OPEN_SCENE, p->wished); break;
-    case PANEL_SETTING: (void)viewer_open_stage(p->v, VIEWER_OPEN_SETTING, p->wished); break;
+    case PANEL_SOURCE: (void)viewer_open_stage(p->v, RLF_WINDOW_OPEN_SOURCE, p->wished); break;
+    case PANEL_SCENE: (void)viewer_open_stage(p->v, RLF_WINDOW_OPEN_SCENE, p->wished); break;
+    case PANEL_SETTING: (void)viewer_open_stage(p->v, RLF_WINDOW_OPEN_SETTING, p->wished); break;
     case PANEL_MODEL: viewer_open_path(p->v, p->wished); break;
     }
 }

@@ -5,7 +5,7 @@
 
 void viewer_choose_renderer(viewer *v)
 {
-    const viewer_options *o = v->options;
+    const rlf_window_def *o = v->options;
     v->renderer = "soft";
     if (!o->use_gl || (o->avoid_software_gl && viewer_window_is_software_gl(&v->window))) {
         return;
@@ -33,27 +33,6 @@ void viewer_set_view(viewer *v, rlf_view view)
     v->is_redraw_due = true;
 }
 
-void viewer_save_picture(viewer *v)
-{
-    char text[VIEWER_LINE_SIZE] = "";
-    if (v->options->on_picture == NULL || !v->has_frame) {
-        viewer_show_error(v, "no place to save pictures to");
-        return;
-    }
-    rlf_result result =
-        v->options->on_picture(v->options->context, &v->frame.render.image, text, sizeof text);
-    viewer_show_result(v, result, text);
-}
-
-void viewer_toggle_record(viewer *v)
-{
-    char text[VIEWER_LINE_SIZE];
-    if (v->options->on_record != NULL) {
-        const rlf_result result = v->options->on_record(v->options->context, text, sizeof text);
-        viewer_show_result(v, result, text);
-    }
-}
-
 void viewer_restart(viewer *v)
 {
     if (rlf_pipeline_restart(v->stage.pipeline) != RLF_OK) {
@@ -73,32 +52,32 @@ void viewer_toggle_pause(viewer *v)
     v->is_present_due = true;
 }
 
-void viewer_set_end(viewer *v, playback_end end)
+void viewer_set_end(viewer *v, rlf_playback_end end)
 {
     char text[VIEWER_LINE_SIZE];
     if (v->stage.playback == NULL) {
         viewer_show_message(v, "a camera has no end");
         return;
     }
-    playback_set_end(v->stage.playback, end);
+    rlf_playback_set_end(v->stage.playback, end);
     v->is_at_end = false;
-    (void)snprintf(text, sizeof text, "at the end: %s", playback_name(end));
+    (void)snprintf(text, sizeof text, "at the end: %s", rlf_playback_name(end));
     viewer_show_message(v, text);
 }
 
 void viewer_seek_to(viewer *v, double share)
 {
-    playback *p = v->stage.playback;
-    const int64_t count = p != NULL ? playback_get_count(p) : -1;
+    rlf_playback *p = v->stage.playback;
+    const int64_t count = p != NULL ? rlf_playback_get_count(p) : -1;
     if (count < 2) {
         viewer_show_message(v, "this source has no other places to go to");
         return;
     }
     const int64_t index = (int64_t)(rlf_clamp(share, 0.0, 1.0) * (double)(count - 1) + 0.5);
-    if (index == playback_get_index(p)) {
+    if (index == rlf_playback_get_index(p)) {
         return;
     }
-    if (playback_seek(p, index) != RLF_OK) {
+    if (rlf_playback_seek(p, index) != RLF_OK) {
         viewer_show_error(v, rlf_error_text());
         return;
     }

@@ -1,6 +1,6 @@
 /* From a mouse position to a body thrown into the scene. */
-#ifndef RELIEF_APP_VIEWER_THROW_H
-#define RELIEF_APP_VIEWER_THROW_H
+#ifndef RLF_VIEWER_THROW_H
+#define RLF_VIEWER_THROW_H
 
 #include "relief/compositor.h"
 #include "relief/world.h"

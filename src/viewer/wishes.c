@@ -97,11 +97,11 @@ static void next_shape(viewer *v)
 /* Arrows go a second back or on, where no model is placed. */
 static void seek_by(viewer *v, int32_t seconds)
 {
-    const playback *p = v->stage.playback;
+    const rlf_playback *p = v->stage.playback;
     const double rate = v->stage.frames_per_second > 0.0 ? v->stage.frames_per_second : 30.0;
-    const int64_t count = p != NULL ? playback_get_count(p) : -1;
+    const int64_t count = p != NULL ? rlf_playback_get_count(p) : -1;
     if (count > 1) {
-        const double frame = (double)playback_get_index(p) + seconds * rate;
+        const double frame = (double)rlf_playback_get_index(p) + seconds * rate;
         viewer_seek_to(v, frame / (double)(count - 1));
     }
 }
@@ -136,7 +136,7 @@ static void fulfil_switches(viewer *v, const viewer_wishes *wishes)
                                  : "this build has no panel: " VIEWER_GET_PANEL);
     }
     if (wishes->next_end && v->stage.playback != NULL) {
-        viewer_set_end(v, (playback_end)((int)(playback_get_end(v->stage.playback) + 1) % 3));
+        viewer_set_end(v, (rlf_playback_end)((int)(rlf_playback_get_end(v->stage.playback) + 1) % 3));
     }
     if (wishes->next_shape) {
         next_shape(v);

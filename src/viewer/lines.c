@@ -55,8 +55,7 @@ static void add_state(viewer *v)
 static void add_recording(viewer *v)
 {
     char text[VIEWER_LINE_SIZE - 2];
-    if (v->options->on_status != NULL &&
-        v->options->on_status(v->options->context, text, sizeof text)) {
+    if (viewer_describe_recording(v, text, sizeof text)) {
         (void)snprintf(new_line(v), VIEWER_LINE_SIZE, "  %s", text);
         v->line_marks[v->line_count - 1] = VIEWER_MARK_RECORDING;
     }

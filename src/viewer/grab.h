@@ -1,6 +1,6 @@
 /* A body held by the mouse: a spring draws it to the ray through the cursor. */
-#ifndef RELIEF_APP_VIEWER_GRAB_H
-#define RELIEF_APP_VIEWER_GRAB_H
+#ifndef RLF_VIEWER_GRAB_H
+#define RLF_VIEWER_GRAB_H
 
 #include "viewer/throw.h"
 

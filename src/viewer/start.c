@@ -1,5 +1,5 @@
 /* The window's start page. */
-#include "viewer/start.h"
+#include "relief/window.h"
 
 #include "relief/gl.h"
 #include "relief/pipeline.h"
@@ -23,9 +23,9 @@
 #define LINE_PITCH 10.0
 
 typedef struct start_page {
-    viewer_list_fn list;
+    rlf_window_list_fn list;
     void *context;
-    viewer_choice choices[VIEWER_CHOICES_MAX];
+    rlf_window_choice choices[RLF_WINDOW_CHOICES_MAX];
     int32_t count, selected, first; /* first of those that are shown */
     int32_t chosen;                 /* -1 = none yet */
     char lines[LINES_MAX][LINE_SIZE];
@@ -166,8 +166,8 @@ static rlf_result run(start_page *page, const volatile sig_atomic_t *interrupted
     return result;
 }
 
-rlf_result viewer_choose(viewer_list_fn list, void *context,
-                         const volatile sig_atomic_t *interrupted, viewer_choice *out)
+rlf_result rlf_window_choose(rlf_window_list_fn list, void *context,
+                         const volatile sig_atomic_t *interrupted, rlf_window_choice *out)
 {
     static start_page page; /* large: the window's callbacks and all lines */
     memset(&page, 0, sizeof(page));

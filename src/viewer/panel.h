@@ -1,6 +1,6 @@
 /* The panel beside the picture, drawn by Dear ImGui where the build has it. */
-#ifndef RELIEF_APP_VIEWER_PANEL_H
-#define RELIEF_APP_VIEWER_PANEL_H
+#ifndef RLF_VIEWER_PANEL_H
+#define RLF_VIEWER_PANEL_H
 
 #include "base/part.h"
 
