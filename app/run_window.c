@@ -97,12 +97,13 @@ static void fill_stage(const session *s, const run_options *o, rlf_window_stage 
 {
     const rlf_source_info *info = rlf_source_get_info(s->source);
     *out = (rlf_window_stage){.pipeline = s->pipeline,
-                          .source = s->source,
-                          .playback = s->playback,
-                          .reconstruct = &s->reconstruct,
-                          .source_name = info->name,
-                          .frames_per_second = info->is_live ? 0.0 : info->frames_per_second,
-                          .scene_name = o->session.scene_path != NULL ? o->session.scene_path : ""};
+                              .source = s->source,
+                              .playback = s->playback,
+                              .reconstruct = &s->reconstruct,
+                              .source_name = info->name,
+                              .frames_per_second = info->is_live ? 0.0 : info->frames_per_second,
+                              .scene_name =
+                                  o->session.scene_path != NULL ? o->session.scene_path : ""};
 }
 
 /* Files have the size and the order of the source that they were begun with. */
@@ -206,7 +207,8 @@ static rlf_result open_setting(run_stage *stage, const char *text)
     return result;
 }
 
-static rlf_result on_open(void *context, rlf_window_opening what, const char *text, rlf_window_stage *out)
+static rlf_result on_open(void *context, rlf_window_opening what, const char *text,
+                          rlf_window_stage *out)
 {
     run_stage *stage = context;
     rlf_result result = RLF_OK;

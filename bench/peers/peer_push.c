@@ -1,6 +1,6 @@
 /* LIFT and SWIPE, without restitution: a surface that rises under a resting body, or comes through
  * one. A new one is seen 30 times a second: Relief takes its grid, the others its mesh. */
-#include "eval/sheet.h"
+#include "eval/physics/sheet.h"
 #include "peer.h"
 
 #define FRAME_S (2.0 * PEER_STEP)

@@ -117,20 +117,20 @@ typedef struct rlf_window_def {
     int32_t monitor;                    /* from 1; 0 = the primary one */
     rlf_view views[RLF_PIPELINE_VIEWS]; /* to start with */
     int32_t view_count;
-    rlf_orbit orbit;                         /* likewise */
-    rlf_pose T_world_camera;                 /* as the pipeline's */
-    rlf_window_next_fn next;                 /* NULL = frames come from the pipeline's source */
-    rlf_window_frame_fn on_frame;            /* NULL = none */
-    rlf_window_picture_fn on_picture;        /* NULL = PNG in the working folder */
-    rlf_window_scene_fn on_scene;            /* NULL = scenes cannot be saved */
-    rlf_window_record_fn on_record;          /* NULL = an MCAP file in the working folder */
-    rlf_window_status_fn on_status;          /* of on_record; NULL = nothing */
-    rlf_window_open_fn on_open;              /* NULL = nothing else can be opened */
-    rlf_window_model_fn on_model;            /* NULL = models cannot be opened */
-    rlf_window_setting_fn on_setting;        /* NULL = the panel shows no settings */
+    rlf_orbit orbit;                          /* likewise */
+    rlf_pose T_world_camera;                  /* as the pipeline's */
+    rlf_window_next_fn next;                  /* NULL = frames come from the pipeline's source */
+    rlf_window_frame_fn on_frame;             /* NULL = none */
+    rlf_window_picture_fn on_picture;         /* NULL = PNG in the working folder */
+    rlf_window_scene_fn on_scene;             /* NULL = scenes cannot be saved */
+    rlf_window_record_fn on_record;           /* NULL = an MCAP file in the working folder */
+    rlf_window_status_fn on_status;           /* of on_record; NULL = nothing */
+    rlf_window_open_fn on_open;               /* NULL = nothing else can be opened */
+    rlf_window_model_fn on_model;             /* NULL = models cannot be opened */
+    rlf_window_setting_fn on_setting;         /* NULL = the panel shows no settings */
     rlf_window_list_fn on_sources, on_scenes; /* for the panel; NULL = it lists none */
-    void *context;                           /* of all of them */
-    rlf_window_cost_fn on_panel_ms;          /* NULL = untold */
+    void *context;                            /* of all of them */
+    rlf_window_cost_fn on_panel_ms;           /* NULL = untold */
     const volatile sig_atomic_t *interrupted; /* not 0 = stop, e.g. by Ctrl-C; NULL = none */
 } rlf_window_def;
 

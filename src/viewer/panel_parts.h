@@ -17,7 +17,8 @@ struct viewer_panel {
     rlf_window_choice sources[RLF_WINDOW_CHOICES_MAX], scenes[RLF_WINDOW_CHOICES_MAX];
     int source_count, scene_count;
     bool has_lists;
-    char source[RLF_WINDOW_SOURCE_SIZE], scene[RLF_WINDOW_SOURCE_SIZE], model[RLF_WINDOW_SOURCE_SIZE];
+    char source[RLF_WINDOW_SOURCE_SIZE], scene[RLF_WINDOW_SOURCE_SIZE],
+        model[RLF_WINDOW_SOURCE_SIZE];
     rlf_vec3 down; /* unit; where gravity pulls to, also while it is off */
     panel_wish wish;
     char wished[RLF_WINDOW_SOURCE_SIZE];

@@ -37,8 +37,8 @@ static rlf_result begin(viewer *v)
     }
     const time_t now = time(NULL);
     const struct tm *t = localtime(&now);
-    if (t == NULL ||
-        strftime(v->recording_path, sizeof v->recording_path, "relief-%Y%m%d-%H%M%S.mcap", t) == 0) {
+    if (t == NULL || strftime(v->recording_path, sizeof v->recording_path,
+                              "relief-%Y%m%d-%H%M%S.mcap", t) == 0) {
         return rlf_fail(RLF_ERROR_DEVICE, "this machine's clock gives no time to name a file by");
     }
     const rlf_recording_def def = rlf_recording_def_default();

@@ -167,7 +167,7 @@ static rlf_result run(start_page *page, const volatile sig_atomic_t *interrupted
 }
 
 rlf_result rlf_window_choose(rlf_window_list_fn list, void *context,
-                         const volatile sig_atomic_t *interrupted, rlf_window_choice *out)
+                             const volatile sig_atomic_t *interrupted, rlf_window_choice *out)
 {
     static start_page page; /* large: the window's callbacks and all lines */
     memset(&page, 0, sizeof(page));

@@ -136,7 +136,8 @@ static void fulfil_switches(viewer *v, const viewer_wishes *wishes)
                                  : "this build has no panel: " VIEWER_GET_PANEL);
     }
     if (wishes->next_end && v->stage.playback != NULL) {
-        viewer_set_end(v, (rlf_playback_end)((int)(rlf_playback_get_end(v->stage.playback) + 1) % 3));
+        viewer_set_end(v,
+                       (rlf_playback_end)((int)(rlf_playback_get_end(v->stage.playback) + 1) % 3));
     }
     if (wishes->next_shape) {
         next_shape(v);

@@ -184,7 +184,8 @@ static rlf_result save(void *context, const rlf_image_rgba8 *image, char *out, s
     return RLF_OK;
 }
 
-static rlf_result refuse(void *context, rlf_window_opening what, const char *text, rlf_window_stage *out)
+static rlf_result refuse(void *context, rlf_window_opening what, const char *text,
+                         rlf_window_stage *out)
 {
     script *s = context;
     (void)out;

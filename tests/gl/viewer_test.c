@@ -379,7 +379,7 @@ static void test_no_display(void **state)
         rlf_pipeline_def def = rlf_pipeline_def_default(RLF_PROFILE_THESIS, source, NULL);
         assert_int_equal(rlf_pipeline_create(&def, &pipeline), RLF_OK);
         rlf_window_def options = rlf_window_def_default();
-    options.hides_panel = true; /* clicks are on the whole window */
+        options.hides_panel = true; /* clicks are on the whole window */
         assert_int_equal(rlf_window_run(pipeline, &options), RLF_ERROR_DEVICE);
         assert_non_null(strstr(rlf_error_text(), "--headless"));
         assert_null(strchr(rlf_error_text(), '\n'));
