@@ -1,4 +1,7 @@
-/* Playing a recording: what comes after its end, and going to any place in it. */
+/* Relief: playing a recording: what comes after its end, and going to any place in it. Put it
+ * between a source and a pipeline: the pipeline then takes the source's frames with times that
+ * never go back.
+ * SPDX-License-Identifier: MIT */
 #ifndef RELIEF_PLAYBACK_H
 #define RELIEF_PLAYBACK_H
 
@@ -8,6 +11,7 @@
 extern "C" {
 #endif
 
+/* What comes after the last frame. */
 typedef enum rlf_playback_end {
     RLF_PLAYBACK_STOP = 0, /* the end is the end */
     RLF_PLAYBACK_LOOP = 1, /* the first frame comes again; bodies stay */
@@ -28,12 +32,15 @@ RLF_API const char *rlf_playback_name(rlf_playback_end end);
  * *source as it was. */
 RLF_API rlf_result rlf_playback_wrap(rlf_source **source, rlf_playback_end end, rlf_playback **out);
 
-/* Chooses what comes after the end, also while it plays. */
+/* Chooses what comes after the end, also while it plays: the choice holds from the next frame on,
+ * and a recording that had ended goes on. */
 RLF_API void rlf_playback_set_end(rlf_playback *p, rlf_playback_end end);
+/* The choice that holds now. */
 RLF_API rlf_playback_end rlf_playback_get_end(const rlf_playback *p);
 /* Number of the frame given last, from 0; -1 before the first. */
 RLF_API int64_t rlf_playback_get_index(const rlf_playback *p);
-/* Number of frames; -1 when the source does not know it, and then there is no seeking. */
+/* How far it is to the end: the number of frames; -1 when the source does not know it, and then
+ * there is no seeking. */
 RLF_API int64_t rlf_playback_get_count(const rlf_playback *p);
 /* Makes a frame the next one. Bodies stay, and wait while that frame comes. RLF_ERROR_INVALID: no
  * such frame, or a source that cannot seek. */

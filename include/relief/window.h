@@ -102,7 +102,9 @@ typedef void (*rlf_window_cost_fn)(void *context, double ms);
 /* ---- the window
  * ----------------------------------------------------------------------------------------- */
 
-/* Get it from rlf_window_def_default. Callbacks run on the thread of rlf_window_run. */
+/* How the window begins, and what the program does for it. Get it from rlf_window_def_default, so
+ * that fields which later versions add have a value. Callbacks run on the thread of
+ * rlf_window_run, between two pictures, and hold the picture up as long as they take. */
 typedef struct rlf_window_def {
     const char *title;       /* of the window; required */
     rlf_window_stage stage;  /* to start with; its pipeline is rlf_window_run's argument */
@@ -134,6 +136,8 @@ typedef struct rlf_window_def {
     const volatile sig_atomic_t *interrupted; /* not 0 = stop, e.g. by Ctrl-C; NULL = none */
 } rlf_window_def;
 
+/* All fields at the defaults that they name: a window of its own size that ends when its user
+ * closes it, OpenGL where it works, no callbacks. */
 RLF_API rlf_window_def rlf_window_def_default(void);
 
 /* Opens a window and runs the pipeline until the user closes the window, frame_count is reached or

@@ -23,6 +23,9 @@ static const char *const end_names[] = {"stop", "loop", "hold"};
 
 bool rlf_playback_parse(const char *text, rlf_playback_end *out)
 {
+    if (!RLF_ASSERT(text != NULL && out != NULL)) {
+        return false;
+    }
     for (int i = 0; i < 3; i++) {
         if (strcmp(text, end_names[i]) == 0) {
             *out = (rlf_playback_end)i;
@@ -34,7 +37,7 @@ bool rlf_playback_parse(const char *text, rlf_playback_end *out)
 
 const char *rlf_playback_name(rlf_playback_end end)
 {
-    return end_names[end];
+    return RLF_ASSERT(end >= RLF_PLAYBACK_STOP && end <= RLF_PLAYBACK_HOLD) ? end_names[end] : "";
 }
 
 static double frames_per_second(const rlf_playback *p)
@@ -132,6 +135,9 @@ rlf_result rlf_playback_wrap(rlf_source **source, rlf_playback_end end, rlf_play
                                                .truth = playback_truth,
                                                .status = playback_status,
                                                .destroy = playback_destroy};
+    if (!RLF_ASSERT(source != NULL && *source != NULL && out != NULL)) {
+        return rlf_fail(RLF_ERROR_INVALID, "rlf_playback_wrap: NULL");
+    }
     rlf_source_info info = *rlf_source_get_info(*source);
     info.rig.depth_offset_m = 0.0; /* is taken away already */
     *out = NULL;
@@ -157,27 +163,35 @@ rlf_result rlf_playback_wrap(rlf_source **source, rlf_playback_end end, rlf_play
 
 void rlf_playback_set_end(rlf_playback *p, rlf_playback_end end)
 {
-    p->end = end;
+    if (RLF_ASSERT(p != NULL)) {
+        p->end = end;
+    }
 }
 
 rlf_playback_end rlf_playback_get_end(const rlf_playback *p)
 {
-    return p->end;
+    return RLF_ASSERT(p != NULL) ? p->end : RLF_PLAYBACK_STOP;
 }
 
 int64_t rlf_playback_get_index(const rlf_playback *p)
 {
-    return p->index;
+    return RLF_ASSERT(p != NULL) ? p->index : 0;
 }
 
 int64_t rlf_playback_get_count(const rlf_playback *p)
 {
+    if (!RLF_ASSERT(p != NULL)) {
+        return 0;
+    }
     const rlf_source_info *info = rlf_source_get_info(p->source);
     return info->can_seek ? info->frame_count : -1;
 }
 
 rlf_result rlf_playback_seek(rlf_playback *p, int64_t index)
 {
+    if (!RLF_ASSERT(p != NULL)) {
+        return rlf_fail(RLF_ERROR_INVALID, "rlf_playback_seek: NULL");
+    }
     const rlf_result result = rlf_source_seek(p->source, index);
     if (result == RLF_OK) {
         p->is_cut = index != p->index + 1;

@@ -170,6 +170,9 @@ rlf_result rlf_window_choose(rlf_window_list_fn list, void *context,
                              const volatile sig_atomic_t *interrupted, rlf_window_choice *out)
 {
     static start_page page; /* large: the window's callbacks and all lines */
+    if (!RLF_ASSERT(list != NULL && out != NULL)) {
+        return rlf_fail(RLF_ERROR_INVALID, "rlf_window_choose: NULL");
+    }
     memset(&page, 0, sizeof(page));
     page.list = list;
     page.context = context;

@@ -291,6 +291,9 @@ static rlf_result run_in_window(viewer *v)
 rlf_result rlf_window_run(rlf_pipeline *pipeline, const rlf_window_def *options)
 {
     static viewer v; /* large: all lines */
+    if (!RLF_ASSERT(pipeline != NULL && options != NULL)) {
+        return rlf_fail(RLF_ERROR_INVALID, "rlf_window_run: NULL");
+    }
     begin(&v, pipeline, options);
     const viewer_window_size size = first_size(&v);
     rlf_result result = viewer_window_open(options->title, &size, &v.window);

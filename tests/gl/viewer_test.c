@@ -12,6 +12,7 @@
 #include "viewer/place.h"
 #include "viewer/throw.h"
 
+#include "count_assert.h"
 #include "viewer_drive.h"
 
 #include <string.h>
@@ -450,9 +451,23 @@ static void test_presenter(void **state)
     glfwTerminate();
 }
 
+static void test_null(void **state)
+{
+    (void)state;
+    int count = 0;
+    const rlf_window_def options = rlf_window_def_default();
+    rlf_window_choice choice;
+    rlf_set_assert(count_assert, &count);
+    assert_int_equal(rlf_window_run(NULL, &options), RLF_ERROR_INVALID);
+    assert_int_equal(rlf_window_choose(NULL, NULL, NULL, &choice), RLF_ERROR_INVALID);
+    assert_int_equal(count, 2);
+    rlf_set_assert(NULL, NULL);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_null),
         cmocka_unit_test(test_pick),
         cmocka_unit_test(test_ray),
         cmocka_unit_test(test_throw),

@@ -11,6 +11,8 @@ set_tests_properties(house.headers PROPERTIES LABELS house TIMEOUT 1800)
 # Every public function with NULL, and every number of what a caller fills in: both are read from the
 # headers that are built here.
 file(GLOB built_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/relief/*.h)
+# Calls of the window open one where there is a display: gl.viewer gives them NULL.
+list(FILTER built_headers EXCLUDE REGEX "/window\\.h$")
 set(is_partial 0)
 foreach(component io gl)
   if(TARGET relief_${component})

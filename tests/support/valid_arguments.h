@@ -26,7 +26,8 @@ typedef struct valid_arguments {
     rlf_source_info info;
     float depth[VALID_PIXELS], ray_x[VALID_PIXELS], ray_y[VALID_PIXELS], one[VALID_PIXELS];
     uint8_t color[4 * VALID_PIXELS];
-    rlf_source *source, *synthetic;
+    rlf_source *source, *synthetic, *played;
+    rlf_playback *playback;
     rlf_pool *pool;
     rlf_registration *registration;
     rlf_reconstruct *reconstruct;
@@ -231,6 +232,8 @@ static inline bool make_source(void)
     return rlf_source_create_custom(&valid.source_methods, &valid.info, &valid, &valid.source) ==
                RLF_OK &&
            rlf_synthetic_create(&valid.synthetic_def, &valid.synthetic) == RLF_OK &&
+           rlf_synthetic_create(&valid.synthetic_def, &valid.played) == RLF_OK &&
+           rlf_playback_wrap(&valid.played, RLF_PLAYBACK_LOOP, &valid.playback) == RLF_OK &&
            rlf_pool_create(1, &valid.pool) == RLF_OK;
 }
 
@@ -345,6 +348,7 @@ static inline bool valid_make(void)
 #define VALID_rlf_hand_tracker valid.hand_tracker
 #define VALID_rlf_surface (void *)valid.output.surface
 #define VALID_rlf_source valid.synthetic
+#define VALID_rlf_playback valid.playback
 #define VALID_rlf_source_info (&valid.info)
 #define VALID_rlf_source_methods (&valid.source_methods)
 #define VALID_rlf_recording_def (&valid.recording_def)
