@@ -1,6 +1,7 @@
 /* A question to the real room: what does a ray meet? Twenty rays fan out from the camera over the
  * floor; where each ends, and whether on the room or on somebody, is drawn from above. */
 #include "relief/relief.h"
+#include "relief/synthetic.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,7 @@
 /* What installations couple sound and light to: a line for every touch that begins or ends, and how
  * hard a body struck. The first ten seconds of two cubes in the synthetic room. */
 #include "relief/relief.h"
+#include "relief/synthetic.h"
 
 #include <stdio.h>
 

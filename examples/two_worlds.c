@@ -2,6 +2,7 @@
  * world of one's own takes its real surface from rlf_grid_from_surface, and any number live side by
  * side. */
 #include "relief/relief.h"
+#include "relief/synthetic.h"
 
 #include <stdio.h>
 

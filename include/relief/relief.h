@@ -1,15 +1,14 @@
 /* Relief: everything of the core library (librelief). Files and devices are in relief/io.h
- * (librelief_io), OpenGL in relief/gl.h (librelief_gl), the window in
- * relief/window.h (librelief_window); who writes a camera's driver needs
- * relief/backend.h alone. What is in which header, in the order of the data:
+ * (librelief_io), OpenGL in relief/gl.h (librelief_gl), the window in relief/window.h
+ * (librelief_window), the simulator in relief/synthetic.h (librelief_sim); who writes a camera's
+ * driver needs relief/backend.h alone. What is in which header, in the order of the data:
  *
  *   base.h         results, the error line, log, memory, clock, worker pool: all others need it
  *   math.h         vectors, quaternions, poses, boxes
  *   image.h        views of picture planes
  *   camera.h       lenses and the registration of one camera's picture to another's
  *   frame.h        a depth picture with its colour, and the rig that took it
- *   source.h       where frames come from; synthetic.h: the simulated room; playback.h: what comes
- *                  after a recording's end
+ *   source.h       where frames come from; playback.h: what comes after a recording's end
  *   surface.h      the real surface of a frame; reconstruct.h: the stage that makes it
  *   snapshot.h     shapes, bodies, contacts; world.h: the physics stage; query.h: rays and overlaps
  *   model.h        what bodies look like; known.h: models of real things
@@ -46,7 +45,6 @@
 #include "relief/snapshot.h"
 #include "relief/source.h"
 #include "relief/surface.h"
-#include "relief/synthetic.h"
 #include "relief/track.h"
 #include "relief/world.h"
 

@@ -66,11 +66,13 @@ typedef struct rlf_source rlf_source;
  * call. */
 typedef void (*rlf_frame_fn)(void *context, const rlf_frame *frame);
 
+/* Fills *out_frame; its planes stay valid until the next call that returns RLF_OK. Returns RLF_OK,
+ * RLF_NO_FRAME, RLF_END or an error. out_frame->rig is set by the caller. */
+typedef rlf_result (*rlf_source_next_fn)(void *self, rlf_frame *out_frame);
+
 /* Methods of a custom source; `self` is the context given at creation. */
 typedef struct rlf_source_methods {
-    /* Fills *out_frame; its planes stay valid until the next call that returns RLF_OK. Returns
-     * RLF_OK, RLF_NO_FRAME, RLF_END or an error. out_frame->rig is set by the caller. Required. */
-    rlf_result (*next)(void *self, rlf_frame *out_frame);
+    rlf_source_next_fn next; /* required */
     /* Starts again with the first frame. NULL = cannot. */
     rlf_result (*restart)(void *self);
     /* Truth of the last frame, or NULL. NULL = never. */
@@ -91,6 +93,9 @@ typedef struct rlf_source_methods {
 RLF_API rlf_result rlf_source_create_custom(const rlf_source_methods *methods,
                                             const rlf_source_info *info, void *self,
                                             rlf_source **out);
+/* The `self` of a source that was made with this `next`; NULL for another kind of source. So the
+ * author of a source finds his own again, and asks it what no other source knows. */
+RLF_API void *rlf_source_get_self(const rlf_source *source, rlf_source_next_fn next);
 /* Closes and nulls. NULL and a NULL source are allowed. */
 RLF_API void rlf_source_destroy(rlf_source **source);
 

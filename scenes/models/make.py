@@ -6,7 +6,7 @@ usage: scenes/models/make.py [FOLDER]     (default: its own)
 
 The duck is a smooth union of ellipsoids, meshed by surface nets (Gibson 1998); its texture is
 painted as seen from the side. The mug is a turned profile with a bent handle. The chair is the
-synthetic room's (src/capture/synthetic/room.c). Only Python's
+synthetic room's (src/sim/room.c). Only Python's
 standard library is used, and the same files come out every time.
 """
 import base64

@@ -1,5 +1,4 @@
 /* The source object: caller's methods plus what is constant about them. */
-#include "capture/source_object.h"
 
 #include "camera/checks.h"
 #include "capture/depth_offset.h"
@@ -182,7 +181,7 @@ const rlf_truth *rlf_source_get_truth(rlf_source *source)
     return source->methods.truth(source->self);
 }
 
-void *capture_source_self(const rlf_source *source, rlf_result (*next)(void *, rlf_frame *))
+void *rlf_source_get_self(const rlf_source *source, rlf_source_next_fn next)
 {
     return source != NULL && source->methods.next == next ? source->self : NULL;
 }

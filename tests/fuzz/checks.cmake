@@ -9,7 +9,7 @@ add_library(relief_fuzz STATIC ${CMAKE_CURRENT_LIST_DIR}/fuzz_driver.c)
 relief_settings(relief_fuzz)
 target_include_directories(relief_fuzz PUBLIC ${PROJECT_SOURCE_DIR}/src
                            ${PROJECT_SOURCE_DIR}/tests/support ${CMAKE_CURRENT_LIST_DIR})
-target_link_libraries(relief_fuzz PUBLIC relief_io relief)
+target_link_libraries(relief_fuzz PUBLIC relief_io relief_sim relief)
 
 set(RELIEF_FUZZ_ITERATIONS 4000 CACHE STRING "Mutations per fuzz test")
 set(fuzz_names address camera_json frame_list layout log matroska oni pcd picture rosbag rvl scene_json)

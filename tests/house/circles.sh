@@ -14,7 +14,7 @@ nm=$1 root=$2
 shift 2
 most=8
 # Headers that still hold both; whoever splits one takes it out of this list.
-tied="src/capture/synthetic/bones.h src/capture/synthetic/random/plan.h src/kernel/kernel.h
+tied="src/sim/bones.h src/sim/random/plan.h src/kernel/kernel.h
 src/physics/grid/contact/contact.h src/physics/world_state.h src/surface/background/state.h
 src/surface/depth/state.h src/surface/motion/state.h src/surface/normals/state.h
 src/surface/stage.h src/surface/steps.h src/surface/thickness/state.h"

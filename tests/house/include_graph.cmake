@@ -13,7 +13,7 @@ set(public_math base math)
 set(public_image base image)
 set(public_camera base math image camera frame) # of the value: what is checked of it
 set(public_kernel base math image camera frame surface) # of the values: noise and reason codes
-set(public_capture base math image camera frame source synthetic synthetic_hands)
+set(public_capture base math image camera frame source playback)
 set(public_surface base math image camera frame surface reconstruct)
 set(public_query base math image camera frame surface)
 set(public_physics base math snapshot world query map) # of the map only what it answers
@@ -24,9 +24,11 @@ set(public_track base math image camera frame surface prediction track)
 set(public_hands base math image camera frame surface hands)
 set(public_render base math image camera frame surface prediction snapshot model compositor)
 set(public_render_gl ${public_render} gl)
-set(public_pipeline base math image camera frame surface snapshot source synthetic synthetic_hands reconstruct world query
-    model compositor known prediction map track hands pipeline relief)
-set(public_io ${public_pipeline} io backend)
+set(public_pipeline base math image camera frame surface snapshot source playback reconstruct world query model
+    compositor known prediction map track hands pipeline relief)
+set(public_sim base math image camera frame source synthetic synthetic_hands)
+set(public_io ${public_pipeline} synthetic synthetic_hands io backend)
+set(public_viewer ${public_io} gl window)
 
 set(internal_base "")
 set(internal_math base)
@@ -45,7 +47,9 @@ set(internal_hands base math camera kernel)
 set(internal_render base math camera kernel known environment)
 set(internal_render_gl base math camera known environment render)
 set(internal_pipeline base math camera known)
+set(internal_sim base math kernel)
 set(internal_io base math camera)
+set(internal_viewer base)
 
 # What a public header may build on: the same layers, seen from outside.
 set(header_base "")
@@ -72,13 +76,17 @@ set(header_hands frame surface)
 set(header_pipeline compositor hands known map reconstruct source track world)
 set(header_io backend map model pipeline synthetic)
 set(header_gl compositor)
-set(header_relief base camera compositor frame hands image known map math model pipeline prediction query
-    reconstruct snapshot source surface synthetic track world)
+set(header_playback source)
+set(header_window pipeline playback)
+set(header_relief base camera compositor frame hands image known map math model pipeline playback prediction
+    query reconstruct snapshot source surface track world)
 
 # The module that implements a public header; values belong to no module.
 set(owner_source capture)
-set(owner_synthetic capture)
-set(owner_synthetic_hands capture)
+set(owner_playback capture)
+set(owner_synthetic sim)
+set(owner_synthetic_hands sim)
+set(owner_window viewer)
 set(owner_reconstruct surface)
 set(owner_world physics)
 set(owner_query physics)

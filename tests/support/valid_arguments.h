@@ -8,6 +8,7 @@
 #define RLF_TEST_VALID_ARGUMENTS_H
 
 #include "relief/relief.h"
+#include "relief/synthetic.h"
 #ifdef RLF_TEST_WITH_IO
 #include "relief/io.h"
 #endif
@@ -168,6 +169,13 @@ static inline void fn_rlf_frame_fn(void *context, const rlf_frame *frame)
 {
     (void)context;
     (void)frame;
+}
+
+static inline rlf_result fn_rlf_source_next_fn(void *self, rlf_frame *out_frame)
+{
+    (void)self;
+    (void)out_frame;
+    return RLF_END;
 }
 
 static inline bool fn_rlf_map_write_fn(void *context, const void *data, size_t size)

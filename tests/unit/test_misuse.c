@@ -9,6 +9,7 @@
 
 #include "count_assert.h"
 #include "relief/relief.h"
+#include "relief/synthetic.h"
 
 static void cameras_of_nothing_are_refused(void **state)
 {

@@ -8,7 +8,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "capture/synthetic/scene.h"
+#include "sim/scene.h"
 #include "heavy.h"
 #include "relief/synthetic.h"
 

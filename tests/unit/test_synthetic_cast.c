@@ -6,8 +6,8 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "capture/synthetic/cast.h"
-#include "capture/synthetic/path.h"
+#include "sim/cast.h"
+#include "sim/path.h"
 
 static synth_hit search(const synth_scene *scene, const synth_ray *ray)
 {

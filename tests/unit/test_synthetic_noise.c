@@ -6,8 +6,8 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "capture/synthetic/hash.h"
-#include "capture/synthetic/noise.h"
+#include "sim/hash.h"
+#include "sim/noise.h"
 #include "relief/synthetic.h"
 
 #include <math.h>

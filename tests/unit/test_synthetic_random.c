@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "capture/synthetic/shape.h"
+#include "sim/shape.h"
 #include "relief/base.h"
 #include "heavy.h"
 #include "relief/synthetic.h"

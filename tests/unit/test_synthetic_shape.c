@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "capture/synthetic/shape.h"
+#include "sim/shape.h"
 
 #include <math.h>
 

@@ -13,7 +13,7 @@
 #define SEAT 0.42
 #define LEG (0.5 * (SEAT - 1.6 * SIDE)) /* from the middle to a leg's */
 
-/* src/capture/synthetic/room.c has them: x, base above the floor, z; width, height, depth. */
+/* src/sim/room.c has them: x, base above the floor, z; width, height, depth. */
 static const double boxes[BOXES][6] = {
     {0, SEAT_BASE, 0, SEAT, 0.035, SEAT},  {-LEG, 0, -LEG, SIDE, SEAT_BASE, SIDE},
     {LEG, 0, -LEG, SIDE, SEAT_BASE, SIDE}, {-LEG, 0, LEG, SIDE, SEAT_BASE, SIDE},

@@ -9,7 +9,7 @@
 #define FLOOR_Y 1.3
 #define TABLE_TOP_M 0.735 /* over the floor */
 
-/* src/capture/synthetic/room.c says where they stand. */
+/* src/sim/room.c says where they stand. */
 static const struct {
     const char *name;
     double x, base, z, size[3], yaw;
