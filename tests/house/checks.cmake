@@ -17,6 +17,7 @@ house_check(style_rejects ${house}/style_rejects.sh ${house}/style.sh
             ${CMAKE_CURRENT_BINARY_DIR}/style)
 house_check(format ${PROJECT_SOURCE_DIR}/script/format --check)
 house_check(scripts ${house}/scripts.sh ${PROJECT_SOURCE_DIR})
+house_check(sizes ${PROJECT_SOURCE_DIR}/script/lines --check ${house}/sizes.txt)
 house_check(thresholds ${house}/thresholds.sh ${PROJECT_SOURCE_DIR}
             ${CMAKE_CURRENT_BINARY_DIR}/thresholds)
 
