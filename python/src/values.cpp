@@ -4,7 +4,8 @@
 #include <cmath>
 #include <cstring>
 
-namespace {
+namespace
+{
 
 constexpr double rotation_tolerance = 1e-4; // of a column's length and of the angles between them
 
@@ -56,11 +57,18 @@ rlf_rig make_rig(const rlf_camera &depth, const py::object &color, const py::obj
     rlf_rig rig = rlf_rig_default();
     rig.depth = depth;
     if (!color.is_none()) {
+        if (!py::isinstance<rlf_camera>(color)) {
+            throw py::type_error("color: use a Camera, or None");
+        }
         rig.color = color.cast<rlf_camera>();
         rig.has_color = true;
     }
     if (!transform.is_none()) {
         rig.T_color_depth = pose_from(transform, "color_from_depth");
+    }
+    if (!(range.first >= 0.0 && range.first < range.second && std::isfinite(range.second))) {
+        throw py::value_error("depth_range: use (nearest, farthest) in metres, 0 <= nearest < "
+                              "farthest");
     }
     rig.depth_min_m = range.first;
     rig.depth_max_m = range.second;
@@ -85,10 +93,9 @@ void bind_camera(py::module_ &m)
         .def_readonly("cy", &rlf_camera::cy)
         .def_property_readonly("distortion_model",
                                [](const rlf_camera &c) { return models[c.distortion_model]; })
-        .def_property_readonly("distortion",
-                               [](const rlf_camera &c) {
-                                   return std::vector<double>(c.distortion, c.distortion + 8);
-                               })
+        .def_property_readonly(
+            "distortion",
+            [](const rlf_camera &c) { return std::vector<double>(c.distortion, c.distortion + 8); })
         .def("__repr__", [](const rlf_camera &c) {
             return "<relief.Camera " + std::to_string(c.width) + " x " + std::to_string(c.height) +
                    ">";
@@ -113,6 +120,30 @@ rlf_vec3 vector_from(const py::object &value, const char *name)
 {
     const Doubles a = numbers_from(value, name, {3}, "three finite numbers");
     return {a.data()[0], a.data()[1], a.data()[2]};
+}
+
+double number_from(const py::handle &value, const char *name)
+{
+    const double number = PyFloat_AsDouble(value.ptr());
+    if (number == -1.0 && PyErr_Occurred() != nullptr) {
+        PyErr_Clear();
+        throw py::type_error(std::string(name) + ": use a number");
+    }
+    return number;
+}
+
+std::string path_from(const py::object &value, const char *name, const char *kinds)
+{
+    const auto path = py::reinterpret_steal<py::object>(PyOS_FSPath(value.ptr()));
+    if (!path || !PyUnicode_Check(path.ptr())) {
+        PyErr_Clear();
+        throw py::type_error(std::string(name) + ": use " + kinds);
+    }
+    const auto text = path.cast<std::string>();
+    if (text.find('\0') != std::string::npos) {
+        throw py::value_error(std::string(name) + ": holds a zero byte");
+    }
+    return text;
 }
 
 rlf_pose pose_from(const py::object &value, const char *name)
@@ -158,10 +189,11 @@ int choice_from(const std::string &value, const char *const *words, const char *
 void bind_values(py::module_ &m)
 {
     bind_camera(m);
-    py::class_<rlf_rig>(m, "Rig",
-                        "The cameras of a sensor: depth, colour where there is one, the pose between them "
-                        "(p_color = color_from_depth p_depth), the range in metres and the noise of "
-                        "depth, sigma(z) = c0 + c1 z + c2 z^2 metres.")
+    py::class_<rlf_rig>(
+        m, "Rig",
+        "The cameras of a sensor: depth, colour where there is one, the pose between them "
+        "(p_color = color_from_depth p_depth), the range in metres and the noise of "
+        "depth, sigma(z) = c0 + c1 z + c2 z^2 metres.")
         .def(py::init(&make_rig), py::arg("depth"), py::arg("color") = py::none(),
              py::arg("color_from_depth") = py::none(),
              py::arg("depth_range") = std::make_pair(0.1, 8.0), py::arg("noise") = py::none())
