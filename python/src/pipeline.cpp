@@ -323,7 +323,8 @@ void bind_pipeline(py::module_ &m)
              "A step with a frame of your own: depth (H, W) uint16 or float32 metres, color (H, W, "
              "3 "
              "or 4) uint8, time in seconds, pose (4, 4) of the depth camera in the world.")
-        .def("restart", &Pipeline::restart, "As at the first frame.")
+        .def("restart", &Pipeline::restart,
+             "As at the first frame. BufferError while arrays show memory.")
         .def("set_view", &Pipeline::set_view, py::arg("name"),
              "What the next pictures show: one of relief.view_names.")
         .def("set_hands", &Pipeline::set_hands, py::arg("is_on"),

@@ -7,6 +7,17 @@ namespace
 const char *const codecs[] = {"rvl", "png", nullptr};
 const char *const compressions[] = {"zstd", "lz4", "none", nullptr};
 
+void need_size(const char *plane, const rlf_camera &given, const rlf_camera &asked)
+{
+    if (given.width != asked.width || given.height != asked.height) {
+        const auto text = [](const rlf_camera &c) {
+            return "(" + std::to_string(c.height) + ", " + std::to_string(c.width) + ")";
+        };
+        throw py::value_error("add: the step's " + std::string(plane) + " has shape " +
+                              text(given) + ", the recording's " + text(asked));
+    }
+}
+
 struct RecordingOwner : Owner {
     rlf_recording *recording = nullptr;
     rlf_source_info info;
@@ -89,6 +100,10 @@ class Recording
     {
         const Busy busy(*step.owner);
         const rlf_frame &frame = step.frame();
+        need_size("depth", step.owner->rig.depth, owner_->info.rig.depth);
+        if (frame.color.data != nullptr) {
+            need_size("color", step.owner->rig.color, owner_->info.rig.color);
+        }
         const auto source = step.owner->source;
         const auto source_busy = source != nullptr ? std::make_unique<Busy>(*source) : nullptr;
         write(frame, step.now().snapshot);

@@ -107,8 +107,10 @@ void bind_source(py::module_ &m)
 {
     py::class_<Source>(m, "Source", "A camera or a recording; iterate it for its frames.")
         .def(py::init<const py::object &, int>(), py::arg("name"), py::arg("threads") = 1)
-        .def_property_readonly("name", [](const Source &s) { return std::string(s.info().name); })
-        .def_property_readonly("rig", [](const Source &s) { return s.info().rig; })
+        .def_property_readonly(
+            "name", [](const Source &s) { return std::string(s.info().name); }, "As it was opened.")
+        .def_property_readonly(
+            "rig", [](const Source &s) { return s.info().rig; }, "Its cameras, a Rig.")
         .def_property_readonly(
             "frame_count",
             [](const Source &s) -> py::object {
@@ -119,12 +121,15 @@ void bind_source(py::module_ &m)
         .def_property_readonly(
             "frames_per_second", [](const Source &s) { return s.info().frames_per_second; },
             "Nominal; 0 = unknown.")
-        .def_property_readonly("is_live", [](const Source &s) { return s.info().is_live; })
-        .def_property_readonly("device",
-                               [](const Source &s) { return std::string(s.info().device); })
+        .def_property_readonly(
+            "is_live", [](const Source &s) { return s.info().is_live; },
+            "True: a camera; the newest frame wins.")
+        .def_property_readonly(
+            "device", [](const Source &s) { return std::string(s.info().device); },
+            "Driver, model and serial number, or the format; \"\" = unknown.")
         .def("restart", &Source::restart, "The first frame is the next one again.")
         .def("seek", &Source::seek, py::arg("index"), "Makes frame `index`, from 0, the next one.")
-        .def("close", &Source::close)
+        .def("close", &Source::close, "Gives the camera or the file back; again it does nothing.")
         .def("__iter__", [](py::object self) { return self; })
         .def("__next__", &Source::next)
         .def("__enter__", [](py::object self) { return self; })

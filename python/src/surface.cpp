@@ -70,17 +70,18 @@ void bind_region(py::module_ &m)
     py::class_<rlf_region>(m, "Region", "A connected piece of the surface; metres, camera frame.")
         .def_readonly("label", &rlf_region::label, "Its value in Surface.label.")
         .def_property_readonly("layer", &layer_name, "\"foreground\" or \"background\".")
-        .def_readonly("point_count", &rlf_region::point_count)
+        .def_readonly("point_count", &rlf_region::point_count, "Pixels.")
         .def_property_readonly(
             "rectangle", [](const rlf_region &r) { return py::make_tuple(r.x0, r.y0, r.x1, r.y1); },
             "x0, y0, x1, y1 in pixels, x0 <= x < x1.")
-        .def_property_readonly("centroid", [](const rlf_region &r) { return array_of(r.centroid); })
+        .def_property_readonly(
+            "centroid", [](const rlf_region &r) { return array_of(r.centroid); }, "(3,), metres.")
         .def_property_readonly(
             "velocity", [](const rlf_region &r) { return array_of(r.linear_velocity); },
-            "m/s of the centroid.")
+            "(3,), m/s of the centroid; 0 = still.")
         .def_property_readonly(
             "angular_velocity", [](const rlf_region &r) { return array_of(r.angular_velocity); },
-            "rad/s.");
+            "(3,), rad/s.");
 }
 
 py::list regions_of(const Surface &surface)
@@ -137,9 +138,10 @@ void bind_surface(py::module_ &m)
                         "pipeline's memory: they may be kept, but the next step writes over them. "
                         "Metres, depth camera's frame: x right, y "
                         "down, z forward.")
-        .def_property_readonly("width", of([](P p) { return p.s->width; }))
-        .def_property_readonly("height", of([](P p) { return p.s->height; }))
-        .def_property_readonly("camera", of([](P p) { return p.s->camera; }))
+        .def_property_readonly("width", of([](P p) { return p.s->width; }), "Pixels.")
+        .def_property_readonly("height", of([](P p) { return p.s->height; }), "Pixels.")
+        .def_property_readonly("camera", of([](P p) { return p.s->camera; }),
+                               "The Camera of its pixels.")
         .def_property_readonly("depth", of([](P p) { return p.plane(p.s->depth); }),
                                "(H, W) float32, z; 0 = missing.")
         .def_property_readonly("points", of([](P p) { return p.points(p.s->depth); }),
