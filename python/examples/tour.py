@@ -52,7 +52,7 @@ with relief.Pipeline("synthetic:room", render=False) as pipeline:
 # %%
 heights, times = [], []
 with relief.Pipeline("synthetic:room") as pipeline:
-    ball = pipeline.world.add("sphere", radius=0.1, position=(0, 0, 2), restitution=0.6)
+    ball = pipeline.world.add("sphere", radius=0.1, position=(0, 0, 3), restitution=0.6)
     pipeline.on_contact(lambda kind, body, other: kind == "begin" and print(body, "meets the", other))
     for _, step in zip(range(60), pipeline):
         times.append(step.time)
