@@ -6,6 +6,7 @@ follows; rulers of dashes stay plain. `float *x, *y; /* ... */` becomes a line f
 Doxygen gives the comment to one of them only. Lines keep their numbers.
 """
 
+import html
 import re
 import sys
 
@@ -23,6 +24,14 @@ def comments(text):
         yield text[place : found.start()], found.group()
         place = found.end()
     yield text[place:], ""
+
+
+def dressed(comment):
+    """`code` and drawings (indented lines between blank ones) as Doxygen has them."""
+    comment = re.sub(r"`([^`\n]+)`", lambda m: f"<code>{html.escape(m.group(1), quote=False)}</code>", comment)
+    return re.sub(
+        r"\n \*\n((?: \* {4,}.*\n)+) \*\n", r"\n * @verbatim\n\1 * @endverbatim\n", comment
+    )
 
 
 def one_each(line, comment):
@@ -49,6 +58,7 @@ def filtered(text):
     out, is_first = [], True
     for code, comment in comments(text):
         line = code.rsplit("\n", 1)[-1]
+        comment = dressed(comment)
         if is_first and comment:
             comment = "/**" + comment[2:].replace("SPDX-License-Identifier: MIT", "@file")
             is_first = False
