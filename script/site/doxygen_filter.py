@@ -30,7 +30,9 @@ def dressed(comment):
     """`code` and drawings (indented lines between blank ones) as Doxygen has them."""
     comment = re.sub(r"`([^`\n]+)`", lambda m: f"<code>{html.escape(m.group(1), quote=False)}</code>", comment)
     return re.sub(
-        r"\n \*\n((?: \* {4,}.*\n)+) \*\n", r"\n * @verbatim\n\1 * @endverbatim\n", comment
+        r"\n \*\n((?: \* {4,}.*\n)+) \*\n",
+        lambda m: "\n @verbatim\n" + m.group(1).replace(" *", "") + " @endverbatim\n",
+        comment,
     )
 
 

@@ -23,3 +23,6 @@ endif()
 add_test(NAME docs.site COMMAND ${CMAKE_CURRENT_LIST_DIR}/site.sh ${PROJECT_SOURCE_DIR}
          ${CMAKE_CURRENT_BINARY_DIR}/site)
 set_tests_properties(docs.site PROPERTIES LABELS docs SKIP_RETURN_CODE 77 TIMEOUT 600)
+add_test(NAME docs.snippets COMMAND ${CMAKE_CURRENT_LIST_DIR}/snippets.sh ${PROJECT_SOURCE_DIR}
+         ${CMAKE_CURRENT_BINARY_DIR}/snippets ${CMAKE_C_COMPILER})
+set_tests_properties(docs.snippets PROPERTIES LABELS docs TIMEOUT 60)
