@@ -25,7 +25,7 @@ def test_the_readme_runs(capsys):
     assert len(capsys.readouterr().out.splitlines()) == 30
 
 
-@pytest.mark.parametrize("page", ["python.md", "coming-from.md", "extending.md", "camera-to-cube.md"])
+@pytest.mark.parametrize("page", ["python.md", "coming-from.md", "camera-to-cube.md"])
 def test_every_block_of_a_page_runs(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "Agg")

@@ -211,7 +211,7 @@ def main():
     site = Site(root, out)
     listed = [source for _, sources in GROUPS for source in sources]
     present = [f"docs/{name}" for name in sorted(os.listdir(os.path.join(root, "docs"))) if name.endswith(".md")]
-    wrong = [f"{source}: no place in GROUPS of script/site/site.py" for source in present if source not in listed]
+    wrong = [f"{source}: no place in GROUPS of docs/site/site.py" for source in present if source not in listed]
     leads = {source: site.guide(source) for source in listed if os.path.exists(os.path.join(root, source))}
     site.guide("clips/table/README.md")
     site.reference()
