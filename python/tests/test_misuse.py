@@ -266,3 +266,16 @@ def test_a_step_allocates_nothing(camera, floor):
         for i in range(20, 60):
             pipeline.push(floor, time=i / 30).surface.depth
         assert relief.allocation_count() == before > 0
+
+
+def test_arrays_stay_readable_whatever_is_shown_next():
+    kept = []
+    with relief.Pipeline("synthetic:room?color=96x54", hands=True, threads=1) as pipeline:
+        for name in relief.view_names:
+            pipeline.set_view(name)
+            step = pipeline.step()
+            kept += [step.picture, step.hand_owner, step.surface.depth]
+        pipeline.set_hands(False)
+        pipeline.step()
+    sums = [int(array.sum()) for array in kept if array is not None]
+    assert len(sums) >= 2 * len(relief.view_names) and max(sums) > 0
