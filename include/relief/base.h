@@ -16,8 +16,8 @@ extern "C" {
 /* Version of these headers; the libraries' sonames carry as much of it as may break: before 1.0
  * major and minor, then major. CMake reads it from here. */
 #define RLF_VERSION_MAJOR 0
-#define RLF_VERSION_MINOR 1
-#define RLF_VERSION_PATCH 0
+#define RLF_VERSION_MINOR 1 /* counts changes that may break programs */
+#define RLF_VERSION_PATCH 0 /* counts those that break none */
 
 /* Marks what the libraries show; everything else in them is hidden. */
 #if defined(__GNUC__)
@@ -37,6 +37,7 @@ extern "C" {
 #define RLF_PRINTF(format_index, first_index)                                                      \
     __attribute__((format(printf, format_index, first_index)))
 #else
+/* Lets the compiler check the arguments of a function like printf. */
 #define RLF_PRINTF(format_index, first_index)
 #endif
 
@@ -111,11 +112,14 @@ RLF_API RLF_COLD bool rlf_assert_failed(const char *condition, const char *file,
  * bytes, or NULL. Both may be called from any thread. NULL functions bring back the default, which
  * on Linux asks for pages of 2 MiB for blocks of 4 MiB and more. */
 typedef void *(*rlf_alloc_fn)(void *context, size_t size);
+/* Gives back what rlf_alloc_fn gave. */
 typedef void (*rlf_free_fn)(void *context, void *memory);
+/* Replaces the memory functions: before anything else of Relief is called. */
 RLF_API void rlf_set_allocator(rlf_alloc_fn alloc, rlf_free_fn release, void *context);
 /* The default functions, for those that do something beside them, as counting; `context` is not
  * used. */
 RLF_API void *rlf_default_alloc(void *context, size_t size);
+/* As above, for memory of rlf_default_alloc; NULL is allowed. */
 RLF_API void rlf_default_free(void *context, void *memory);
 
 /* Zeroed memory aligned to 64 bytes, or NULL (then the error line is set). `size` 0 gives 64. */

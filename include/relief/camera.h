@@ -22,11 +22,11 @@ typedef enum rlf_distortion_model {
 
 /* One pinhole camera with lens distortion. */
 typedef struct rlf_camera {
-    int32_t width, height; /* pixels, 1..RLF_IMAGE_SIZE_MAX */
-    double fx, fy;         /* focal lengths, pixels, finite and > 0 */
-    double cx, cy;         /* principal point, pixels, finite */
-    rlf_distortion_model distortion_model;
-    double distortion[8]; /* k1 k2 p1 p2 k3 k4 k5 k6; unused ones are 0 */
+    int32_t width, height;                 /* pixels, 1..RLF_IMAGE_SIZE_MAX */
+    double fx, fy;                         /* focal lengths, pixels, finite and > 0 */
+    double cx, cy;                         /* principal point, pixels, finite */
+    rlf_distortion_model distortion_model; /* which of the numbers below count, and how */
+    double distortion[8];                  /* k1 k2 p1 p2 k3 k4 k5 k6; unused ones are 0 */
 } rlf_camera;
 
 /* RLF_OK, or RLF_ERROR_INVALID with a line that names the field (`who` is put in front of it). */
@@ -76,6 +76,7 @@ typedef struct rlf_registration rlf_registration;
 RLF_API rlf_result rlf_registration_create(const rlf_camera *depth, const float *ray_x,
                                            const float *ray_y, const rlf_camera *color,
                                            const rlf_pose *T_color_depth, rlf_registration **out);
+/* Frees it and nulls the pointer. NULL and a NULL registration are allowed. */
 RLF_API void rlf_registration_destroy(rlf_registration **registration);
 
 /* Warps `depth` (width*height floats, metres, 0 = missing) into the colour camera with a z-buffer.

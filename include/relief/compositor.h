@@ -47,6 +47,7 @@ typedef struct rlf_legend_row {
 /* What the colours of a view mean, to be drawn by rlf_legend_draw or in a window of one's own. A
  * value: it borrows nothing that can go away. */
 #define RLF_LEGEND_ROWS 9
+/* What the colours or symbols of a view mean. */
 typedef struct rlf_legend {
     const char *title; /* what is shown and in which unit, e.g. "depth, m"; lives for ever */
     rlf_legend_row rows[RLF_LEGEND_ROWS]; /* from the top down */
@@ -79,7 +80,7 @@ typedef struct rlf_room_sight {
      * gives a grey. */
     const uint8_t *rgba;
     const rlf_vec3 *path; /* where the camera has been, world, metres */
-    int32_t path_count;
+    int32_t path_count;   /* 0 = no path */
 } rlf_room_sight;
 
 /* Writes a line of text in warm white, letters of 5 x 7 dots, from (x, y), the top left corner;
@@ -91,10 +92,10 @@ RLF_API int32_t rlf_draw_text(const rlf_image_rgba8 *image, int32_t x, int32_t y
 
 /* A small plot under the overlay's lines: for each frame a stacked bar. */
 typedef struct rlf_plot {
-    const char *const *names; /* series_count of them */
-    const float *values;      /* [count][series_count], the oldest first */
-    int32_t series_count, count;
-    float line; /* a value to mark, > 0; the plot ends at twice as much */
+    const char *const *names;    /* series_count of them */
+    const float *values;         /* [count][series_count], the oldest first */
+    int32_t series_count, count; /* bars of a frame, and frames */
+    float line;                  /* a value to mark, > 0; the plot ends at twice as much */
 } rlf_plot;
 
 /* A line over the picture, or a text. What it stands for is the caller's business: the compositor
@@ -166,10 +167,10 @@ typedef struct rlf_render_input {
     rlf_orbit orbit;              /* of RLF_VIEW_POINTS */
     const rlf_room_sight *room;   /* of RLF_VIEW_MAP; NULL = there is no map, and a line says so */
     const char *const *overlay;   /* text lines, top left; used with enable_overlay */
-    int32_t overlay_count;
-    const rlf_plot *plot;  /* bottom left; used with enable_overlay; NULL = none */
-    const rlf_mark *marks; /* over RLF_VIEW_HANDS, in this order */
-    int32_t mark_count;
+    int32_t overlay_count;        /* 0 = none */
+    const rlf_plot *plot;         /* bottom left; used with enable_overlay; NULL = none */
+    const rlf_mark *marks;        /* over RLF_VIEW_HANDS, in this order */
+    int32_t mark_count;           /* 0 = none */
 } rlf_render_input;
 
 /* One picture. All is the compositor's and stays valid until its next render or its end. */
@@ -190,7 +191,10 @@ typedef struct rlf_compositor rlf_compositor;
  * once it runs; RLF_ERROR_DEVICE makes a pipeline go on with the soft renderer. `destroy` frees the
  * context, NULL = nothing to free; `name` lives as long as the compositor. */
 typedef struct rlf_compositor_methods {
+    /* Draws one picture; *out holds until the next. RLF_ERROR_DEVICE: the pipeline goes back to the
+     * soft renderer. */
     rlf_result (*render)(void *self, const rlf_render_input *input, rlf_render_output *out);
+    /* Frees self. */
     void (*destroy)(void *self);
     const char *name; /* "soft", "gl" */
 } rlf_compositor_methods;

@@ -32,8 +32,8 @@ typedef struct rlf_rig {
     rlf_camera depth;       /* intrinsics, lens and size of the depth pictures */
     rlf_camera color;       /* used when has_color; size of the colour frames */
     rlf_pose T_color_depth; /* p_color = T p_depth; identity when depth is already aligned */
-    bool has_color;
-    double depth_min_m;    /* nearest depth the sensor reports, metres (Kinect v2: 0.5) */
+    bool has_color;         /* false: no frame has colour */
+    double depth_min_m;     /* nearest depth the sensor reports, metres (Kinect v2: 0.5) */
     double depth_max_m;    /* farthest (Kinect v2: 4.5); libraries keep what is beyond as missing */
     rlf_depth_noise noise; /* of the raw depth */
     double depth_offset_m; /* the sensor measures too far by this, metres: rlf_source_next and
@@ -83,8 +83,8 @@ typedef struct rlf_frame {
     ptrdiff_t confidence_stride; /* bytes */
 
     /* Where the device or the file says the depth camera was; the world is the source's own. */
-    bool has_pose; /* false: T_world_camera means nothing */
-    rlf_pose T_world_camera;
+    bool has_pose;           /* false: T_world_camera means nothing */
+    rlf_pose T_world_camera; /* depth camera in the world */
 } rlf_frame;
 
 /* RLF_OK, or RLF_ERROR_INVALID with a line that says what is wrong (`who` is put in front of it):

@@ -60,10 +60,10 @@ RLF_API const char *rlf_gesture_name(rlf_gesture gesture);
 /* One hand. All numbers are finite. */
 typedef struct rlf_hand {
     int32_t id; /* > 0; the same while it is seen and through gaps of 0.3 s; not used again */
-    rlf_hand_side side;
-    rlf_hand_detail detail;
-    double confidence; /* 0..1 that this is a hand; see RLF_HAND_SURE */
-    int64_t age_ns;    /* since it was first seen */
+    rlf_hand_side side;     /* as its owner says */
+    rlf_hand_detail detail; /* what its distance allows to tell */
+    double confidence;      /* 0..1 that this is a hand; see RLF_HAND_SURE */
+    int64_t age_ns;         /* since it was first seen */
 
     rlf_vec3 palm;          /* centre of the palm's disc, on the seen surface, metres; smoothed */
     rlf_vec3 velocity;      /* of the palm, m/s; 0 in the first frame */
@@ -76,7 +76,7 @@ typedef struct rlf_hand {
     rlf_vec3 tip[RLF_HAND_TIPS_MAX]; /* on the seen surface at the fingers' ends, metres, in the
                                         order in which they follow round the hand */
 
-    rlf_gesture gesture;
+    rlf_gesture gesture; /* what it does, held against flicker */
     /* Between the two fingers that pinch, metres; when gesture is not PINCH: where they would. */
     rlf_vec3 pinch_point;
     /* Gap between thumb and the finger nearest to it, metres: 0 while they touch, < 0 = not known.
@@ -113,30 +113,30 @@ RLF_API bool rlf_hand_event_parse(const char *name, rlf_hand_event_kind *out);
 
 /* One event. It tells of the frame in which it was recognised. */
 typedef struct rlf_hand_event {
-    rlf_hand_event_kind kind;
-    int32_t hand;       /* id */
-    rlf_vec3 position;  /* pinch point, finger tip of point, else the palm; metres */
-    rlf_vec3 direction; /* of the ray for point, else of the motion or of the hand; unit */
-    rlf_vec3 velocity;  /* of the palm, m/s */
+    rlf_hand_event_kind kind; /* what began or ended */
+    int32_t hand;             /* id */
+    rlf_vec3 position;        /* pinch point, finger tip of point, else the palm; metres */
+    rlf_vec3 direction;       /* of the ray for point, else of the motion or of the hand; unit */
+    rlf_vec3 velocity;        /* of the palm, m/s */
 } rlf_hand_event;
 
 /* The hands of one frame, beside its surface. */
 typedef struct rlf_hands {
-    uint64_t sequence; /* of the surface */
-    int64_t time_ns;
-    int32_t count;
-    rlf_hand hand[RLF_HANDS_MAX]; /* in the order of their ids */
-    int32_t event_count;
-    rlf_hand_event event[RLF_HAND_EVENTS_MAX];
+    uint64_t sequence;                         /* of the surface */
+    int64_t time_ns;                           /* device time of the surface */
+    int32_t count;                             /* 0..RLF_HANDS_MAX */
+    rlf_hand hand[RLF_HANDS_MAX];              /* in the order of their ids */
+    int32_t event_count;                       /* 0..RLF_HAND_EVENTS_MAX */
+    rlf_hand_event event[RLF_HAND_EVENTS_MAX]; /* of this frame, hand by hand */
     /* Which pixel of the surface's grid belongs to which hand: 1 + its index in `hand`, else 0.
      * width * height values; the tracker's, valid until its next update or its end. */
     const uint8_t *owner;
-    int32_t width, height;
+    int32_t width, height; /* of owner: the surface's grid */
 } rlf_hands;
 
 /* What a tracker is made for. From rlf_hand_tracker_def_default. */
 typedef struct rlf_hand_tracker_def {
-    uint32_t cookie;
+    uint32_t cookie;       /* from rlf_hand_tracker_def_default */
     int32_t width, height; /* of the surface's grid; > 0 */
     /* Smoothing of what stands still: cut-off frequency, Hz, > 0. Higher trembles more. default 1.
      */

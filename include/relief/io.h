@@ -36,7 +36,7 @@ typedef struct rlf_source_kind {
     const char *unavailable; /* why it cannot be opened and what to do; NULL = it can be */
     const char *option;      /* the build was made without it: the option that brings it */
     const char *plugin;      /* the shared object that it came from; NULL = built in */
-    bool is_live;
+    bool is_live;            /* true: cameras; false: files */
 } rlf_source_kind;
 
 /* Copies into `out` the word of `list`, words with blanks between, that takes the fewest edits
@@ -83,16 +83,20 @@ RLF_API rlf_result rlf_rig_save(const char *path, rlf_rig_format format, const r
 /* ---- recordings
  * ------------------------------------------------------------------------------------- */
 
+/* How depth is packed in an MCAP file: RVL (Wilson 2017) is faster, PNG is read by more programs.
+ */
 typedef enum rlf_depth_codec { RLF_DEPTH_RVL = 0, RLF_DEPTH_PNG = 1 } rlf_depth_codec;
 
+/* How the chunks of an MCAP file are packed. */
 typedef enum rlf_compression {
     RLF_COMPRESSION_ZSTD = 0,
     RLF_COMPRESSION_LZ4 = 1,
     RLF_COMPRESSION_NONE = 2
 } rlf_compression;
 
+/* How a recording is written. From rlf_recording_def_default. */
 typedef struct rlf_recording_def {
-    uint32_t cookie;
+    uint32_t cookie;             /* from rlf_recording_def_default */
     rlf_depth_codec depth_codec; /* of MCAP files; folders have PNG. Both are lossless */
     rlf_compression compression; /* of the chunks of an MCAP file */
     int32_t jpeg_quality;        /* of colour, 1..100, default 90; 0 = PNG, lossless */
@@ -100,14 +104,17 @@ typedef struct rlf_recording_def {
                        most when the power goes */
 } rlf_recording_def;
 
+/* How far a recording is. */
 typedef struct rlf_recording_status {
     uint64_t frames; /* added; once it is closed those that can be read back: a full disk keeps
                         fewer */
     uint64_t bytes;  /* written so far; about, until it is closed */
 } rlf_recording_status;
 
+/* A recording that is being written. */
 typedef struct rlf_recording rlf_recording;
 
+/* The defaults that the fields name. */
 RLF_API rlf_recording_def rlf_recording_def_default(void);
 /* Begins a recording of a source: an MCAP file with ROS 2 messages, or, when the path ends with /
  * or is a folder, a folder in the TUM layout. What is there of the same name is replaced. The file
@@ -120,6 +127,7 @@ RLF_API rlf_result rlf_recording_add(rlf_recording *recording, const rlf_frame *
 /* Poses of the bodies, as frames of /tf; folders keep none. After the first frame. */
 RLF_API rlf_result rlf_recording_add_bodies(rlf_recording *recording, int64_t time_ns,
                                             const rlf_snapshot *snapshot);
+/* How far it is. Thread-safety: as add. */
 RLF_API rlf_recording_status rlf_recording_get_status(const rlf_recording *recording);
 /* Finishes the file; the pointer is nulled even when it fails. NULL and a NULL recording are
  * allowed, and `out` may be NULL. */
@@ -165,14 +173,18 @@ RLF_API rlf_result rlf_png_read_rgb_u16(const char *path, uint16_t **out, int32_
                                         int32_t *out_height);
 /* Reads a PNG (any kind) or JPEG as RGBA into a new image (rlf_free its data). */
 RLF_API rlf_result rlf_picture_read(const char *path, rlf_image_rgba8 *out);
+/* Writes 8-bit colour with alpha. RLF_ERROR_IO names the file. */
 RLF_API rlf_result rlf_png_write_rgba(const char *path, const rlf_image_rgba8 *image);
+/* Writes 8-bit grey. RLF_ERROR_IO names the file. */
 RLF_API rlf_result rlf_png_write_u8(const char *path, const rlf_plane_u8 *plane);
+/* Writes 16-bit grey, width * height values row by row. RLF_ERROR_IO names the file. */
 RLF_API rlf_result rlf_png_write_u16(const char *path, const uint16_t *data, int32_t width,
                                      int32_t height);
 
 /* ---- arrays and meshes
  * ------------------------------------------------------------------------------ */
 
+/* What the numbers of an array are. */
 typedef enum rlf_npy_type { RLF_NPY_F32 = 0, RLF_NPY_I32 = 1, RLF_NPY_U8 = 2 } rlf_npy_type;
 
 /* Writes a NumPy 1.0 file, C order, little endian. rank 1..4. */
@@ -203,12 +215,14 @@ RLF_API rlf_result rlf_map_mesh_write(const char *path, const rlf_map_mesh *mesh
 /* ---- video
  * ------------------------------------------------------------------------------------------ */
 
+/* A video that is being written. One thread at a time. */
 typedef struct rlf_video rlf_video;
 
 /* Opens a video by its name: .mp4 (H.264, needs the libav packages), .y4m, "-" for Y4M on stdout.
  * Odd sizes are padded by one pixel. frames_per_second > 0. */
 RLF_API rlf_result rlf_video_open(const char *path, int32_t width, int32_t height,
                                   double frames_per_second, rlf_video **out);
+/* Appends a picture of the video's size. RLF_ERROR_INVALID for another size, RLF_ERROR_IO. */
 RLF_API rlf_result rlf_video_write(rlf_video *video, const rlf_image_rgba8 *image);
 /* Finishes the file; the pointer is nulled even when it fails. NULL is allowed. */
 RLF_API rlf_result rlf_video_close(rlf_video **video);
@@ -216,10 +230,12 @@ RLF_API rlf_result rlf_video_close(rlf_video **video);
 /* ---- logs
  * ------------------------------------------------------------------------------------------- */
 
+/* CSV files that are being written. One thread at a time. */
 typedef struct rlf_csv_log rlf_csv_log;
 
 /* Makes frames.csv, bodies.csv and contacts.csv in a folder (made if missing). */
 RLF_API rlf_result rlf_csv_log_open(const char *folder, rlf_csv_log **out);
+/* Appends a frame to all files. */
 RLF_API rlf_result rlf_csv_log_write(rlf_csv_log *log, const rlf_pipeline_output *output);
 /* Flushes and closes; reports a disk that filled. The pointer is nulled even when it fails. NULL is
  * allowed. */

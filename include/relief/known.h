@@ -16,6 +16,7 @@ extern "C" {
 
 /* How many points give a pose: three fix it, more average what picking by hand is off. */
 #define RLF_KNOWN_POINTS_MIN 3
+/* Most points of one model. */
 #define RLF_KNOWN_POINTS_MAX 6
 
 /* A point of the model and where it is in the real world. */
@@ -28,13 +29,13 @@ typedef struct rlf_known_point {
 
 /* A model and its pose, or the points that give it. */
 typedef struct rlf_known_def {
-    uint32_t cookie;
-    char name[RLF_NAME_MAX];
-    rlf_shape shape;        /* what it collides as; default box 0.1 m */
+    uint32_t cookie;         /* from rlf_known_def_default */
+    char name[RLF_NAME_MAX]; /* ends with a zero; found by it */
+    rlf_shape shape;         /* what it collides as; default box 0.1 m */
     rlf_look look;          /* a model in the shape's frame: its triangles hide; NULL = the shape */
     rlf_pose T_world_model; /* default identity; used when there are no points */
     bool has_pose;          /* false: it waits to be placed; points count instead. default true */
-    rlf_known_point points[RLF_KNOWN_POINTS_MAX];
+    rlf_known_point points[RLF_KNOWN_POINTS_MAX]; /* the first point_count count */
     int32_t point_count; /* 0, or RLF_KNOWN_POINTS_MIN to RLF_KNOWN_POINTS_MAX */
     bool refine;         /* on the surface, after the points; default true */
     bool collides;       /* false: it hides, and others collide for it; default true */
@@ -61,16 +62,16 @@ RLF_API rlf_result rlf_align_points(const rlf_vec3 *model, const rlf_vec3 *world
 
 /* What the camera sees, for picks and refinement; all borrowed for the call. */
 typedef struct rlf_known_view {
-    const rlf_surface *surface;
-    const rlf_rig *rig;
-    rlf_pose T_world_camera; /* depth camera in the world */
+    const rlf_surface *surface; /* of the last frame */
+    const rlf_rig *rig;         /* cameras of the picked pixels */
+    rlf_pose T_world_camera;    /* depth camera in the world */
 } rlf_known_view;
 
 /* A pose and how well it fits. */
 typedef struct rlf_known_fit {
-    rlf_pose T_world_model;
-    int32_t depth_count;   /* picks with depth */
-    double pick_rms;       /* metres: between the points with depth and the model's */
+    rlf_pose T_world_model; /* the model in the world */
+    int32_t depth_count;    /* picks with depth */
+    double pick_rms;        /* metres: between the points with depth and the model's */
     double pick_rms_px;    /* pixels: between the picked pixels and the model's; 0 without pixels */
     int32_t surface_count; /* surface points on the model; 0 = not refined */
     double surface_rms;    /* metres: their distance to it */

@@ -35,7 +35,7 @@ extern "C" {
 
 /* Settings of a map. Memory is taken in slabs as the room grows, and never more than memory_mb. */
 typedef struct rlf_map_def {
-    uint32_t cookie;
+    uint32_t cookie;   /* from rlf_map_def_default */
     rlf_rig rig;       /* of the frames to come; its depth camera, lens and noise; must be set */
     double voxel_m;    /* edge of a voxel, 0.002..0.05 metres; default 0.006 */
     int32_t memory_mb; /* most memory of blocks, 8..16384 MiB; default 288. When it is full, the
@@ -114,14 +114,14 @@ typedef enum rlf_map_state {
 
 /* Answer of rlf_map_sample. */
 typedef struct rlf_map_point {
-    rlf_map_state state;
+    rlf_map_state state; /* whether the place was seen, and what is there */
     /* Signed distance to the nearest surface, metres: > 0 FREE, <= 0 INSIDE. Cut at the truncation:
      * where is_far, the surface is at least that far. 0 when UNKNOWN. */
     double distance;
     /* Unit, out of the surface (the way in which distance grows); (0, 0, 0) when UNKNOWN or far
      * from any surface. */
     rlf_vec3 gradient;
-    bool is_far;
+    bool is_far; /* distance is cut, see above */
 } rlf_map_point;
 
 /* Distance and gradient at a world point: trilinear. About 0.1 us. */
@@ -142,14 +142,15 @@ RLF_API const uint8_t *rlf_map_predict_color(rlf_map *map);
 
 /* Where a map stands. */
 typedef struct rlf_map_status {
-    double voxel_m;
-    int32_t block_count, block_capacity;
-    size_t bytes;   /* of all memory that the map holds */
-    int64_t frames; /* fused */
-    rlf_aabb box;   /* of all blocks, world, metres; empty when there are none */
-    bool is_full;   /* blocks have had to leave */
+    double voxel_m;                      /* edge of a voxel, metres */
+    int32_t block_count, block_capacity; /* in use, and at most */
+    size_t bytes;                        /* of all memory that the map holds */
+    int64_t frames;                      /* fused */
+    rlf_aabb box; /* of all blocks, world, metres; empty when there are none */
+    bool is_full; /* blocks have had to leave */
 } rlf_map_status;
 
+/* How large it is. Thread-safety: not while it is changed. */
 RLF_API rlf_map_status rlf_map_get_status(const rlf_map *map);
 
 /* Poses from which the map was seen, world from camera, at least 0.25 m or 15 degrees apart, 256 at
@@ -161,11 +162,11 @@ RLF_API const rlf_pose *rlf_map_get_viewpoints(const rlf_map *map, int32_t *out_
 
 /* Triangles of the zero level, counter-clockwise as seen from free space. World frame, metres. */
 typedef struct rlf_map_mesh {
-    float *position; /* 3 a vertex */
-    float *normal;   /* 3 a vertex, unit, out of the surface */
-    uint8_t *rgba;   /* 4 a vertex; NULL when the map keeps no colour */
-    uint32_t *index; /* 3 a triangle */
-    size_t vertex_count, triangle_count;
+    float *position;                     /* 3 a vertex */
+    float *normal;                       /* 3 a vertex, unit, out of the surface */
+    uint8_t *rgba;                       /* 4 a vertex; NULL when the map keeps no colour */
+    uint32_t *index;                     /* 3 a triangle */
+    size_t vertex_count, triangle_count; /* 3 indices a triangle */
 } rlf_map_mesh;
 
 /* Marching cubes over all blocks (Lorensen and Cline 1987; ambiguous faces are parted the same way

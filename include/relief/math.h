@@ -74,7 +74,7 @@ static inline bool rlf_is_finite(double x) { return x - x == 0.0; }
 /* Three coordinates: a point, a direction or a velocity. What it is and its unit stand where it is
  * used; the frame is that of the field's or argument's description. 24 bytes, no padding. */
 typedef struct rlf_vec3 {
-    double x, y, z;
+    double x, y, z; /* metres, unless a comment says otherwise */
 } rlf_vec3;
 
 /* A vector of its coordinates, for expressions in which C has no literal. */
@@ -156,7 +156,7 @@ static inline rlf_vec3 rlf_perpendicular(rlf_vec3 n)
 /* Nine numbers: a rotation, an inertia tensor or a covariance. m[1][2] is the second row's third.
  * Vectors are columns and stand to its right. */
 typedef struct rlf_mat3 {
-    double m[3][3];
+    double m[3][3]; /* m[row][column] */
 } rlf_mat3;
 
 /* Zero but for the diagonal. Ones make the identity; the principal moments make the inertia of a
@@ -192,7 +192,7 @@ RLF_API bool rlf_mat3_invert(const rlf_mat3 *a, rlf_mat3 *out);
 /* Hamilton's convention: x, y, z are the axis times sin(angle / 2), w is cos(angle / 2), and i j =
  * k. q and -q are the same rotation. */
 typedef struct rlf_quat {
-    double x, y, z, w;
+    double x, y, z, w; /* w is the real part; unit length */
 } rlf_quat;
 
 /* No rotation. A zeroed struct is not one: it is no rotation's quaternion at all. */
@@ -312,7 +312,7 @@ static inline rlf_pose rlf_pose_invert(const rlf_pose *T_a_b)
 /* Homogeneous transform of column vectors. OpenGL wants columns one after the other: transpose it,
  * or upload it with GL_TRUE. */
 typedef struct rlf_mat4 {
-    double m[4][4];
+    double m[4][4]; /* m[row][column]; points are columns */
 } rlf_mat4;
 
 /* a b: what b does first and a then. */

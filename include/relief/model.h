@@ -51,12 +51,12 @@ typedef struct rlf_model_texture {
 /* Read only; from rlf_model_create, which puts all arrays into one block: nothing of it is freed by
  * itself. Indices and counts are within the limits above and were checked. */
 typedef struct rlf_model {
-    const rlf_model_vertex *vertices; /* in the file's order */
-    int32_t vertex_count;             /* at least 3 */
-    const int32_t *triangles;         /* 3 indices each, counter-clockwise seen from outside */
-    int32_t triangle_count;           /* at least 1 */
-    const rlf_model_part *parts;      /* in order; together all triangles */
-    int32_t part_count;
+    const rlf_model_vertex *vertices;  /* in the file's order */
+    int32_t vertex_count;              /* at least 3 */
+    const int32_t *triangles;          /* 3 indices each, counter-clockwise seen from outside */
+    int32_t triangle_count;            /* at least 1 */
+    const rlf_model_part *parts;       /* in order; together all triangles */
+    int32_t part_count;                /* at least 1 */
     const rlf_model_texture *textures; /* NULL when there is none */
     int32_t texture_count;             /* of those that parts name by index */
     rlf_aabb box;                      /* of the vertices */
@@ -71,14 +71,14 @@ typedef struct rlf_model_def {
     const char *name; /* begins error lines; default "model" */
     /* A normal of length 0 is worked out from the triangles around the vertex. */
     const rlf_model_vertex *vertices;
-    int32_t vertex_count;        /* 3 to RLF_MODEL_VERTICES_MAX */
-    const int32_t *triangles;    /* 3 indices each, counter-clockwise seen from outside */
-    int32_t triangle_count;      /* 1 to RLF_MODEL_TRIANGLES_MAX */
-    const rlf_model_part *parts; /* NULL = one part, white, texture 0 if there is one */
-    int32_t part_count;
+    int32_t vertex_count;          /* 3 to RLF_MODEL_VERTICES_MAX */
+    const int32_t *triangles;      /* 3 indices each, counter-clockwise seen from outside */
+    int32_t triangle_count;        /* 1 to RLF_MODEL_TRIANGLES_MAX */
+    const rlf_model_part *parts;   /* NULL = one part, white, texture 0 if there is one */
+    int32_t part_count;            /* 0 with NULL */
     const rlf_image_rgba8 *images; /* any size up to RLF_MODEL_IMAGE_MAX; kept as the next power of
                                       two, at most RLF_MODEL_TEXTURE_MAX */
-    int32_t image_count;
+    int32_t image_count;           /* 0 = no textures */
 } rlf_model_def;
 
 /* No geometry, no pictures, the name "model". */

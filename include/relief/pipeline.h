@@ -36,14 +36,14 @@ typedef struct rlf_scene {
      * frames are asked, too, and the surest answer counts; if that is still not sure, a warning
      * says so. Where there is nothing to ask it stays as it is. */
     bool finds_gravity;
-    rlf_body_def *bodies; /* owned when made by rlf_scene_create or rlf_scene_load, with their
-                             hulls, of which each is that of bodies in a row */
-    int32_t body_count;
+    rlf_body_def *bodies;      /* owned when made by rlf_scene_create or rlf_scene_load, with their
+                                  hulls, of which each is that of bodies in a row */
+    int32_t body_count;        /* 0 = no bodies */
     rlf_border border;         /* what is beyond the camera's view; default extend */
     rlf_known_def *known;      /* models of real things; owned as the bodies are */
     int32_t known_count;       /* at most RLF_KNOWN_MAX */
     struct rlf_model **models; /* what the bodies' looks borrow; owned as the bodies are */
-    int32_t model_count;
+    int32_t model_count;       /* 0 = none */
     rlf_hand_action on[RLF_HAND_EVENT_COUNT]; /* by rlf_hand_event_kind; default: none */
 } rlf_scene;
 
@@ -80,25 +80,25 @@ typedef enum rlf_pose_origin {
 /* All that a pipeline is made of. From rlf_pipeline_def_default, for the settings of the stages
  * depend on profile and source; then change what shall differ. */
 typedef struct rlf_pipeline_def {
-    uint32_t cookie;
-    rlf_profile profile;
+    uint32_t cookie;                 /* from rlf_pipeline_def_default */
+    rlf_profile profile;             /* thesis or live */
     rlf_source *source;              /* borrowed for the pipeline's life; NULL: frames are pushed */
     rlf_reconstruct_def reconstruct; /* set by rlf_pipeline_def_default from profile and source */
     rlf_world_def world; /* its capacities are raised to what the scene needs, and 256 throws */
-    rlf_compositor_def compositor;
-    const rlf_scene *scene;  /* copied; NULL = no bodies */
-    bool enable_render;      /* default true; false: no picture is made */
-    bool enable_hands;       /* default false; true where the scene binds their events */
-    rlf_pose T_world_camera; /* mount pose; default identity */
-    rlf_camera_mode camera;  /* default fixed; what moves needs the live profile */
-    rlf_pose_origin poses;   /* of a moving camera; default tracked */
+    rlf_compositor_def compositor; /* of the soft renderer */
+    const rlf_scene *scene;        /* copied; NULL = no bodies */
+    bool enable_render;            /* default true; false: no picture is made */
+    bool enable_hands;             /* default false; true where the scene binds their events */
+    rlf_pose T_world_camera;       /* mount pose; default identity */
+    rlf_camera_mode camera;        /* default fixed; what moves needs the live profile */
+    rlf_pose_origin poses;         /* of a moving camera; default tracked */
     /* The room of a moving camera: borrowed for the pipeline's life and fused into. One that holds
      * blocks is a known room: the camera is looked for in it, and its world is the world. NULL
      * (default): a room of the pipeline's own, empty, made when it is needed. */
     rlf_map *map;
     rlf_surface_fn replace_surface; /* default NULL: physics gets what was sensed */
-    void *replace_context;
-    rlf_pool *pool; /* borrowed; NULL = one thread */
+    void *replace_context;          /* given to replace_surface */
+    rlf_pool *pool;                 /* borrowed; NULL = one thread */
 } rlf_pipeline_def;
 
 /* Settings of a profile for a source, which must be open, since sizes and noise come from its rig.
@@ -113,25 +113,25 @@ RLF_API rlf_pipeline_def rlf_pipeline_def_for_rig(rlf_profile profile, const rlf
 
 /* Wall time of the stages of one frame, milliseconds. Capture is the wait for the source. */
 typedef struct rlf_stage_times {
-    double capture_ms, surface_ms, physics_ms, render_ms;
+    double capture_ms, surface_ms, physics_ms, render_ms; /* render_ms 0 without pictures */
     double hands_ms; /* of surface_ms; 0 when no hands are looked for */
 } rlf_stage_times;
 
 /* All values of one frame; valid until the next step. */
 typedef struct rlf_pipeline_output {
-    int64_t frame_index; /* 0, 1, 2, ... */
-    double time_s;       /* since the first frame */
-    rlf_frame frame;
-    const rlf_surface *surface;
+    int64_t frame_index;           /* 0, 1, 2, ... */
+    double time_s;                 /* since the first frame */
+    rlf_frame frame;               /* planes borrowed from the source */
+    const rlf_surface *surface;    /* the pipeline's */
     rlf_pose T_world_camera;       /* depth camera in the world */
     const rlf_track_result *track; /* how sure a moving camera's pose is; NULL while it stands */
     /* What the map shows from there; NULL = nothing is known. */
     const rlf_prediction *room;
-    const rlf_hands *hands; /* NULL when none are looked for; see rlf_pipeline_set_hands */
-    const rlf_snapshot *snapshot;
-    double gravity_confidence; /* 0..1; below RLF_UP_SURE it is a guess; 1 when it was given */
-    rlf_render_output render;  /* image.data NULL when rendering is off */
-    rlf_stage_times times;
+    const rlf_hands *hands;       /* NULL when none are looked for; see rlf_pipeline_set_hands */
+    const rlf_snapshot *snapshot; /* bodies and contacts after the step */
+    double gravity_confidence;    /* 0..1; below RLF_UP_SURE it is a guess; 1 when it was given */
+    rlf_render_output render;     /* image.data NULL when rendering is off */
+    rlf_stage_times times;        /* where its time went */
     /* From the frame's arrival at this machine to the finished picture; 0 = unknown, as of files.
      */
     double latency_ms;
@@ -159,6 +159,8 @@ RLF_API rlf_compositor_def rlf_pipeline_get_compositor_def(const rlf_pipeline *p
 /* One to four views side by side in the next pictures, each as large as the picture by itself: two
  * in a row, more in two rows. There is no matte of more than one. May allocate. */
 #define RLF_PIPELINE_VIEWS 4
+/* Views of the next pictures, count of them, 1 to RLF_PIPELINE_VIEWS. RLF_ERROR_INVALID for others,
+ * RLF_ERROR_MEMORY when a view needs hands that cannot be had. */
 RLF_API rlf_result rlf_pipeline_set_views(rlf_pipeline *pipeline, const rlf_view *views,
                                           int32_t count);
 /* Where RLF_VIEW_POINTS and RLF_VIEW_MAP are seen from in the next pictures. */

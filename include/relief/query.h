@@ -24,7 +24,7 @@ typedef enum rlf_query_reason {
 
 /* What a ray met first. */
 typedef struct rlf_ray_hit {
-    rlf_query_reason reason;
+    rlf_query_reason reason; /* HIT, or why nothing was met */
     rlf_contact_other other; /* what was hit; this and all below only when reason is HIT */
     rlf_body_id body;        /* null unless other is RLF_CONTACT_BODY */
     int32_t region_label;    /* of the surface; 0 for a body */

@@ -9,11 +9,13 @@
 extern "C" {
 #endif
 
+/* Which methods a stage takes. */
 typedef enum rlf_profile {
     RLF_PROFILE_LIVE = 0,  /* our best method for each stage, at scale factor 1 */
     RLF_PROFILE_THESIS = 1 /* the method as written, at scale factor 8 */
 } rlf_profile;
 
+/* How normals are found. */
 typedef enum rlf_normal_method {
     RLF_NORMALS_SIX_FACES = 0, /* mean weighted equally over the six incident triangles (eq. 4.2) */
     RLF_NORMALS_FOUR_FACES = 1,   /* four faces: up, left, down, right (fig. 4.7) */
@@ -21,6 +23,7 @@ typedef enum rlf_normal_method {
     RLF_NORMALS_INVERSE_DEPTH = 3 /* exact 1/z form (errata 1), edge-aware, faces the camera */
 } rlf_normal_method;
 
+/* What tells the room from what moves in it. */
 typedef enum rlf_background_method {
     RLF_BACKGROUND_OFF = 0,      /* every pixel is front sheet; no background */
     RLF_BACKGROUND_AVERAGE = 1,  /* thesis 4.4.1: mean of the first frames, static for ever */
@@ -28,6 +31,7 @@ typedef enum rlf_background_method {
     RLF_BACKGROUND_GIVEN = 3     /* the camera moves: give_background tells for each frame */
 } rlf_background_method;
 
+/* What cuts a layer into regions. */
 typedef enum rlf_segment_method {
     RLF_SEGMENT_OFF = 0,    /* the whole layer is one region */
     RLF_SEGMENT_THESIS = 1, /* eq. 4.4 in two directions, AND, 4-connected regions, dilation */
@@ -53,14 +57,14 @@ typedef bool (*rlf_give_background_fn)(void *context, const rlf_surface *seen,
 
 /* All settings of the surface stage. Any mix of methods can be run. */
 typedef struct rlf_reconstruct_def {
-    uint32_t cookie;
+    uint32_t cookie;      /* from rlf_reconstruct_def_default */
     rlf_rig rig;          /* the source's; must be set */
     int32_t scale_factor; /* 1..64; live 1, thesis 8 */
     double depth_min_m;   /* nearer = too near; default from the rig */
     double depth_max_m;   /* farther = too far; default from the rig */
 
-    rlf_normal_method normal_method;
-    bool normals_face_camera; /* true: n.p < 0 (errata 2); false: n_z < 0 as in eq. 4.3 */
+    rlf_normal_method normal_method; /* live: inverse depth */
+    bool normals_face_camera;        /* true: n.p < 0 (errata 2); false: n_z < 0 as in eq. 4.3 */
 
     rlf_segment_method background_segment; /* thesis: THESIS */
     rlf_segment_method foreground_segment; /* thesis: OFF (one person), or THESIS (several) */
@@ -75,13 +79,13 @@ typedef struct rlf_reconstruct_def {
     int32_t region_capacity;   /* most regions of one surface; further ones are dropped by size */
     bool keep_region_points;   /* fill region_points; the thesis collision needs it */
 
-    rlf_background_method background_method;
-    rlf_give_background_fn give_background; /* GIVEN: must be set */
-    void *give_context;
-    int32_t background_frames;     /* frames averaged at start; default 5 */
-    double foreground_threshold_m; /* AVERAGE: |z - z_bg| above this is foreground */
-    double foreground_sigmas;      /* ADAPTIVE, GIVEN: z_bg - z above this many sigma(z) ... */
-    double foreground_min_m;       /* ... and above this, metres */
+    rlf_background_method background_method; /* live: adaptive */
+    rlf_give_background_fn give_background;  /* GIVEN: must be set */
+    void *give_context;                      /* given to give_background */
+    int32_t background_frames;               /* frames averaged at start; default 5 */
+    double foreground_threshold_m;           /* AVERAGE: |z - z_bg| above this is foreground */
+    double foreground_sigmas; /* ADAPTIVE, GIVEN: z_bg - z above this many sigma(z) ... */
+    double foreground_min_m;  /* ... and above this, metres */
     double absorb_after_s; /* ADAPTIVE: still foreground becomes background; default 20, 0 never */
 
     /* live: true: takes off pixels that mix the depths of both sides of an edge. They lie on no
@@ -123,10 +127,12 @@ RLF_API rlf_reconstruct_def rlf_reconstruct_def_default(rlf_profile profile, con
 /* Surfaces stay valid for this many further calls of rlf_reconstruct_process. */
 #define RLF_RECONSTRUCT_SURFACES 3
 
+/* The surface stage: one camera's background and history. One thread at a time. */
 typedef struct rlf_reconstruct rlf_reconstruct;
 
 /* Allocates everything that will ever be needed. */
 RLF_API rlf_result rlf_reconstruct_create(const rlf_reconstruct_def *def, rlf_reconstruct **out);
+/* Frees it and nulls the pointer. NULL and a NULL stage are allowed. */
 RLF_API void rlf_reconstruct_destroy(rlf_reconstruct **stage);
 
 /* Makes the surface of one frame. *out_surface is the stage's and stays valid and unchanged during
@@ -155,6 +161,7 @@ typedef enum rlf_surface_step {
 /* Name of a step, e.g. "background". */
 RLF_API const char *rlf_surface_step_name(rlf_surface_step step);
 
+/* Wall time of the surface stage's steps. */
 typedef struct rlf_surface_times {
     double step_ms[RLF_SURFACE_STEP_COUNT]; /* of the last frame */
 } rlf_surface_times;

@@ -42,7 +42,7 @@ typedef struct rlf_hull {
 
 /* What a body collides as. Only the fields of its type count; lengths are > 0 and at most 100 m. */
 typedef struct rlf_shape {
-    rlf_shape_type type;
+    rlf_shape_type type;  /* says which fields count */
     rlf_vec3 size;        /* box: full extents, metres */
     double radius;        /* sphere, capsule, cylinder, metres */
     double height;        /* cylinder: full height; capsule: between the two cap centres, metres */
@@ -120,17 +120,17 @@ typedef struct rlf_contact_event {
  * does not change while they live; valid until the next call that changes the world. An array of
  * count 0 may be NULL. */
 typedef struct rlf_snapshot {
-    int64_t time_ns;              /* world time, starts at 0 */
-    uint64_t frame;               /* rlf_world_advance calls so far */
-    rlf_vec3 gravity;             /* m/s^2 */
-    const rlf_body_state *bodies; /* the virtual ones */
-    int32_t body_count;           /* those that wait for their release time count, too */
-    const rlf_body_state *known;  /* models of real things: not drawn, they hide and collide */
-    int32_t known_count;
-    const rlf_contact *contacts; /* of the last advance */
-    int32_t contact_count;
+    int64_t time_ns;                 /* world time, starts at 0 */
+    uint64_t frame;                  /* rlf_world_advance calls so far */
+    rlf_vec3 gravity;                /* m/s^2 */
+    const rlf_body_state *bodies;    /* the virtual ones */
+    int32_t body_count;              /* those that wait for their release time count, too */
+    const rlf_body_state *known;     /* models of real things: not drawn, they hide and collide */
+    int32_t known_count;             /* 0 = none */
+    const rlf_contact *contacts;     /* of the last advance */
+    int32_t contact_count;           /* 0 = nothing touches */
     const rlf_contact_event *events; /* of the last advance, by body; ends and begins mixed */
-    int32_t event_count;
+    int32_t event_count;             /* 0 = nothing changed */
 } rlf_snapshot;
 
 #ifdef __cplusplus

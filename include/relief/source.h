@@ -12,8 +12,8 @@ extern "C" {
 
 /* What is known of a source when it is open. Constant from then on. */
 typedef struct rlf_source_info {
-    char name[128]; /* as the user gave it, e.g. "synthetic:room" */
-    rlf_rig rig;
+    char name[128];           /* as the user gave it, e.g. "synthetic:room" */
+    rlf_rig rig;              /* its cameras, for its life */
     int64_t frame_count;      /* -1 = unknown or endless */
     double frames_per_second; /* nominal; 0 = unknown */
     bool is_live;             /* true: newest frame wins; false: lock-step, every frame */
@@ -46,16 +46,16 @@ typedef struct rlf_truth {
     const float
         *thickness; /* z of the ray's exit from the object minus depth; 0 for the room shell */
     const float *velocity_x, *velocity_y, *velocity_z; /* m/s of the surface point */
-    const float *background_depth; /* z of the same room without the foreground, metres */
-    const struct rlf_truth_pose *poses;
-    int32_t pose_count;
+    const float *background_depth;      /* z of the same room without the foreground, metres */
+    const struct rlf_truth_pose *poses; /* what moves */
+    int32_t pose_count;                 /* 0 = nothing moves */
 } rlf_truth;
 
 /* True pose of a moving object or limb. */
 typedef struct rlf_truth_pose {
-    char name[32];
-    int32_t label;
-    rlf_pose T_camera_object;
+    char name[32];            /* of the object or limb */
+    int32_t label;            /* as in rlf_truth.label */
+    rlf_pose T_camera_object; /* the object in the depth camera's frame */
 } rlf_truth_pose;
 
 /* Something that gives frames, one after the other. One thread at a time; a live camera has a

@@ -43,9 +43,9 @@ typedef enum rlf_layer {
 
 /* A connected piece of one layer. Its mask is `label plane == label` inside the rectangle. */
 typedef struct rlf_region {
-    int32_t label; /* > 0, unique among both layers of one surface */
-    rlf_layer layer;
-    int32_t point_count;
+    int32_t label;             /* > 0, unique among both layers of one surface */
+    rlf_layer layer;           /* the sheet that it is a piece of */
+    int32_t point_count;       /* pixels */
     int32_t first_point;       /* into rlf_surface.region_points; -1 when lists are not kept */
     int32_t x0, y0, x1, y1;    /* rectangle in grid pixels: x0 <= x < x1, y0 <= y < y1 */
     rlf_aabb box;              /* metres, camera frame */
@@ -65,13 +65,15 @@ typedef enum rlf_background_state {
     RLF_BACKGROUND_READY = 2
 } rlf_background_state;
 
+/* What the camera sees now, and the room behind it. All planes are width * height values, row by
+ * row, in the camera's frame, and hold until the stage's next frame. */
 typedef struct rlf_surface {
-    uint64_t sequence; /* of the frame it was made from */
-    int64_t time_ns;
-    int32_t width, height;
-    int32_t scale_factor; /* every scale_factor-th depth pixel is kept */
-    rlf_camera camera;    /* of the grid (decimated depth camera) */
-    rlf_depth_noise noise;
+    uint64_t sequence;          /* of the frame it was made from */
+    int64_t time_ns;            /* device time of the frame */
+    int32_t width, height;      /* of all planes, pixels */
+    int32_t scale_factor;       /* every scale_factor-th depth pixel is kept */
+    rlf_camera camera;          /* of the grid (decimated depth camera) */
+    rlf_depth_noise noise;      /* of the raw depth */
     const float *ray_x, *ray_y; /* rays per pixel; constant for a source. Outside the lens: 0, 0 */
 
     /* Front sheet: what the camera sees now. */
@@ -85,14 +87,15 @@ typedef struct rlf_surface {
 
     /* Back sheet: the background behind (or at) each pixel. All 0 where unknown. */
     const float *background_depth;
+    /* Unit and towards the camera, or 0. */
     const float *background_normal_x, *background_normal_y, *background_normal_z;
     /* Solid behind background_depth, metres along z; 0 = not known: bodies then take it to be
      * RLF_BACKGROUND_GUESS_M thick, square to its face. */
     const float *background_thickness;
-    const int32_t *background_label;
+    const int32_t *background_label; /* region label; 0 = none */
     /* While it and background_depth stay the same, so do the planes above; 0 = not known. */
     int64_t background_version;
-    rlf_background_state background_state;
+    rlf_background_state background_state; /* whether it is known yet */
     /* No depth, or hardly any: the sensor warms up, or its lens is covered. Nothing is learnt of
      * such a frame, nothing of it is foreground, and a pipeline's bodies wait. Hardly any: less
      * than a tenth of the background that is known; before there is any, less than a tenth of the
@@ -113,8 +116,8 @@ typedef struct rlf_surface {
 
     /* Regions of both layers; region_points lists pixel indices region by region when kept. */
     const rlf_region *regions;
-    int32_t region_count;
-    const int32_t *region_points;
+    int32_t region_count;         /* of both layers */
+    const int32_t *region_points; /* NULL when lists are not kept */
 
     int32_t valid_count;      /* pixels with depth > 0 */
     int32_t foreground_count; /* pixels with foreground == 1 */
@@ -179,6 +182,7 @@ RLF_API size_t rlf_mesh_indices_region(const rlf_surface *surface, const rlf_reg
  * weakly, that cameras are seldom rolled and look down rather than up. A camera that looks
  * straight at a bare wall, or straight down on a bare floor, cannot know. Thread-safe. */
 #define RLF_UP_SURE 0.7
+/* Confidence, 0..1; *out_up is unit. See above. */
 RLF_API double rlf_surface_find_up(const rlf_surface *surface, rlf_vec3 *out_up);
 
 #ifdef __cplusplus

@@ -84,7 +84,7 @@ typedef enum rlf_synthetic_label {
 /* Which room, and what the sensor is like. From rlf_synthetic_def_default or rlf_synthetic_parse.
  */
 typedef struct rlf_synthetic_def {
-    uint32_t cookie;
+    uint32_t cookie;           /* from rlf_synthetic_def_default */
     rlf_synthetic_scene scene; /* default room */
     uint64_t seed;             /* of noise and dropout, of a random room too; default 1 */
     uint64_t person;           /* who it is; default 1: an adult of 1.75 m. Every other number is

@@ -88,6 +88,7 @@ typedef struct rlf_synthetic_hand {
 
 /* Most bodies of one act, and most hands. */
 #define RLF_SYNTHETIC_BODIES_MAX 3
+/* Most hands of one act. */
 #define RLF_SYNTHETIC_HANDS_MAX 2
 
 /* Where the virtual bodies stand, and when the hands do what with the first. Acts that grasp

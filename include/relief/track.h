@@ -39,7 +39,7 @@ RLF_API const char *rlf_track_health_name(rlf_track_health health);
 
 /* Settings of a tracker. */
 typedef struct rlf_tracker_def {
-    uint32_t cookie;
+    uint32_t cookie;         /* from rlf_tracker_def_default */
     rlf_rig rig;             /* of the frames to come; must be set */
     double gate_m;           /* points farther from the prediction than this do not count at first;
                                 it bounds the motion between two frames; default 0.1 */
@@ -75,12 +75,12 @@ typedef struct rlf_track_view {
 /* What was found. */
 typedef struct rlf_track_result {
     rlf_pose T_world_camera; /* always finite */
-    rlf_track_health health;
-    double overlap;      /* share of the frame's points that lie on the prediction, 0..1 */
-    double rms_sigma;    /* of those: root mean square residual over its expected deviation */
-    double constraint;   /* least share of information of a direction, 0..1/3 */
-    rlf_vec3 weak_way;   /* unit, world: the direction of motion that is determined least */
-    int32_t point_count; /* points of the frame that were tried at the finest level */
+    rlf_track_health health; /* whether the pose can be used */
+    double overlap;          /* share of the frame's points that lie on the prediction, 0..1 */
+    double rms_sigma;        /* of those: root mean square residual over its expected deviation */
+    double constraint;       /* least share of information of a direction, 0..1/3 */
+    rlf_vec3 weak_way;       /* unit, world: the direction of motion that is determined least */
+    int32_t point_count;     /* points of the frame that were tried at the finest level */
 } rlf_track_result;
 
 /* Where the camera will be at time_ns if it goes on as it did: where to predict for. */

@@ -40,11 +40,11 @@ typedef struct rlf_grid_sheet {
 
 /* A region with its points, for the thesis's broad and narrow phase. */
 typedef struct rlf_grid_region {
-    int32_t label;
-    bool is_foreground;
+    int32_t label;         /* > 0, as in the sheet's labels */
+    bool is_foreground;    /* true: it moves; false: it stays */
     rlf_aabb box;          /* grid frame, metres */
     const int32_t *points; /* pixel indices; NULL when not kept */
-    int32_t point_count;
+    int32_t point_count;   /* of points; 0 when not kept */
 } rlf_grid_region;
 
 /* Projects a point of the grid frame to grid pixel coordinates, (0, 0) being the centre of the
@@ -54,17 +54,17 @@ typedef bool (*rlf_project_fn)(const void *context, rlf_vec3 p, double *out_u, d
 /* The real surface of one moment. All planes are borrowed for the advance; `rays` and `project`
  * must be there whenever a sheet has depth. */
 typedef struct rlf_grid {
-    int32_t width, height;
-    const float *ray_x, *ray_y; /* point = depth * (ray_x, ray_y, 1) */
-    rlf_grid_sheet background;  /* what stays */
-    rlf_grid_sheet foreground;  /* what moves in front of it: mask says where */
-    const rlf_grid_region *regions;
-    int32_t region_count;
-    rlf_project_fn project;
-    const void *project_context;
-    double pixel_angle;    /* approximate radians per grid pixel, for footprint sizes */
-    rlf_pose T_world_grid; /* camera pose in the world */
-    int64_t time_ns;       /* when it was seen */
+    int32_t width, height;          /* of all planes, pixels */
+    const float *ray_x, *ray_y;     /* point = depth * (ray_x, ray_y, 1) */
+    rlf_grid_sheet background;      /* what stays */
+    rlf_grid_sheet foreground;      /* what moves in front of it: mask says where */
+    const rlf_grid_region *regions; /* NULL = none are kept */
+    int32_t region_count;           /* 0 when none are kept */
+    rlf_project_fn project;         /* of a point to its pixel */
+    const void *project_context;    /* given to project */
+    double pixel_angle;             /* approximate radians per grid pixel, for footprint sizes */
+    rlf_pose T_world_grid;          /* camera pose in the world */
+    int64_t time_ns;                /* when it was seen */
 } rlf_grid;
 
 /* ---- world
@@ -77,9 +77,10 @@ typedef enum rlf_physics_method {
         1 /* chapter 4.3: Euler, matrix orientation, region boxes, point impulses */
 } rlf_physics_method;
 
+/* What a world is made of. From rlf_world_def_default; sizes are taken at create. */
 typedef struct rlf_world_def {
-    uint32_t cookie;
-    rlf_physics_method method;
+    uint32_t cookie;           /* from rlf_world_def_default */
+    rlf_physics_method method; /* default live */
     rlf_vec3 gravity;          /* m/s^2; default (0, 9.81, 0): y is down */
     int32_t body_capacity;     /* default 1024 */
     int32_t contact_capacity;  /* default 16384 */
@@ -99,7 +100,7 @@ RLF_API rlf_world_def rlf_world_def_default(void);
 
 /* A body to add; copied but for its hull and model, which are borrowed. */
 typedef struct rlf_body_def {
-    uint32_t cookie;
+    uint32_t cookie;           /* from rlf_body_def_default */
     char name[RLF_NAME_MAX];   /* default "" = "body-N" */
     rlf_shape shape;           /* default box 0.1 m; what it collides as */
     rlf_look look;             /* what it is drawn as; default its shape */
@@ -184,6 +185,7 @@ typedef struct rlf_world_times {
     double publish_ms; /* events and snapshot */
 } rlf_world_times;
 
+/* Times of the last advance. Thread-safety: not during one. */
 RLF_API rlf_world_times rlf_world_get_times(const rlf_world *world);
 
 /* State after the last advance; valid until the next call that changes the world. */

@@ -3,7 +3,8 @@
 
 #include <map>
 
-namespace {
+namespace
+{
 
 PyObject *base_error;
 std::map<int, PyObject *> errors;
@@ -47,14 +48,12 @@ void bind_errors(py::module_ &m)
     m.attr("Error") = py::handle(base_error);
     errors[RLF_ERROR_INVALID] =
         make(m, "InvalidError", "A value that cannot be used.", PyExc_ValueError);
-    errors[RLF_ERROR_IO] =
-        make(m, "FileError", "A file or device could not be opened, read or written.",
-             PyExc_OSError);
+    errors[RLF_ERROR_IO] = make(
+        m, "FileError", "A file or device could not be opened, read or written.", PyExc_OSError);
     errors[RLF_ERROR_FORMAT] =
         make(m, "FormatError", "A file is damaged, or not what its name says.", PyExc_ValueError);
-    errors[RLF_ERROR_UNSUPPORTED] =
-        make(m, "UnsupportedError", "Not in this build, or not on this machine.",
-             PyExc_RuntimeError);
+    errors[RLF_ERROR_UNSUPPORTED] = make(
+        m, "UnsupportedError", "Not in this build, or not on this machine.", PyExc_RuntimeError);
     errors[RLF_ERROR_CAPACITY] =
         make(m, "CapacityError", "More than there is room for.", PyExc_RuntimeError);
     errors[RLF_ERROR_DEVICE] =

@@ -26,6 +26,18 @@ Busy::Busy(Owner &owner) : owner_(owner)
     }
 }
 
+rlf_pool *make_pool(int threads)
+{
+    rlf_pool *pool;
+    if (rlf_pool_create(threads, &pool) == RLF_ERROR_INVALID) {
+        throw py::value_error(std::string("threads: ") + rlf_error_text());
+    }
+    if (pool == nullptr) {
+        throw std::bad_alloc();
+    }
+    return pool;
+}
+
 py::array view_of(const std::shared_ptr<Owner> &owner, const py::dtype &type, const void *data,
                   const std::vector<py::ssize_t> &shape, const std::vector<py::ssize_t> &strides)
 {

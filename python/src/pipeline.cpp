@@ -1,30 +1,13 @@
-// The frame loop, and what a step of it gives.
+// The frame loop.
 #include "bind.hpp"
 
-#include <cstring>
-
-namespace {
-
-struct PipelineOwner : Owner {
-    std::shared_ptr<SourceOwner> source; // none when frames are pushed
-    rlf_pool *pool = nullptr;
-    rlf_scene scene = {};
-    rlf_pipeline *pipeline = nullptr;
-    rlf_rig rig = {};
-    uint64_t step = 0; // counts them: a Step of an earlier one is over
-
-    PipelineOwner() : Owner("pipeline") {}
-    ~PipelineOwner() override
-    {
-        rlf_pipeline_destroy(&pipeline);
-        rlf_scene_destroy(&scene);
-        rlf_pool_destroy(&pool);
-    }
-};
+namespace
+{
 
 // A call that reads the source, too: nobody may close it meanwhile.
-class Use {
-public:
+class Use
+{
+  public:
     explicit Use(PipelineOwner &owner)
     {
         owner.need_open();
@@ -35,7 +18,7 @@ public:
         }
     }
 
-private:
+  private:
     std::unique_ptr<Busy> pipeline_, source_;
 };
 
@@ -43,142 +26,15 @@ const char *const profiles[] = {"live", "thesis", nullptr};
 const char *const modes[] = {"fixed", "moving", "auto", nullptr};
 const char *const origins[] = {"tracked", "source", nullptr};
 
-struct Step {
-    std::shared_ptr<PipelineOwner> owner;
-    rlf_pipeline_output out;
-    uint64_t step;
-
-    const rlf_pipeline_output &now() const
-    {
-        owner->need_open();
-        if (step != owner->step) {
-            throw std::runtime_error("this step is over: the pipeline has made another one; copy "
-                                     "what is to stay");
-        }
-        return out;
-    }
-
-    py::object image(const rlf_image_rgba8 &picture) const
-    {
-        if (picture.data == nullptr) {
-            return py::none();
-        }
-        return view_of(owner, py::dtype::of<uint8_t>(), picture.data,
-                       {picture.height, picture.width, 4}, {picture.stride, 4, 1});
-    }
-};
-
-// Depth and colour of the caller's, for one push.
-struct Pushed {
-    py::array depth, color;
-    std::vector<uint8_t> rgba;
-    rlf_frame frame = {};
-};
-
-void need_shape(const py::array &a, const char *name, int height, int width, int channels)
+class Pipeline
 {
-    const bool is_flat = channels == 0;
-    const bool fits = a.ndim() == (is_flat ? 2 : 3) && a.shape(0) == height &&
-                      a.shape(1) == width && (is_flat || a.shape(2) == channels);
-    if (!fits) {
-        std::string shape = "(";
-        for (py::ssize_t i = 0; i < a.ndim(); i++) {
-            shape += (i > 0 ? ", " : "") + std::to_string(a.shape(i));
-        }
-        throw py::value_error(std::string(name) + " has shape " + shape + "): use (" +
-                              std::to_string(height) + ", " + std::to_string(width) +
-                              (is_flat ? ")" : ", 3) or (H, W, 4)"));
-    }
-}
-
-// Rows that lie in memory pixel by pixel; else a copy that does.
-py::array packed_rows(const py::array &a)
-{
-    py::ssize_t step = a.itemsize();
-    bool is_packed = a.strides(0) > 0;
-    for (py::ssize_t i = a.ndim() - 1; i > 0; i--) {
-        is_packed = is_packed && a.strides(i) == step;
-        step *= a.shape(i);
-    }
-    return is_packed && a.strides(0) >= step ? a : py::array::ensure(a, py::array::c_style);
-}
-
-void take_depth(const py::object &value, double units_per_metre, const rlf_camera &camera,
-                Pushed &out)
-{
-    if (!py::isinstance<py::array>(value)) {
-        throw py::type_error("depth: use a NumPy array");
-    }
-    out.depth = value.cast<py::array>();
-    const bool is_u16 = out.depth.dtype().is(py::dtype::of<uint16_t>());
-    if (!is_u16 && !out.depth.dtype().is(py::dtype::of<float>())) {
-        throw py::type_error("depth has dtype " + std::string(py::str(out.depth.dtype())) +
-                             ": use uint16 (units) or float32 (metres)");
-    }
-    need_shape(out.depth, "depth", camera.height, camera.width, 0);
-    out.depth = packed_rows(out.depth);
-    out.frame.depth_stride = out.depth.strides(0);
-    if (is_u16) {
-        out.frame.depth_u16 = static_cast<const uint16_t *>(out.depth.data());
-        out.frame.depth_units_per_metre = units_per_metre;
-    } else {
-        out.frame.depth_f32 = static_cast<const float *>(out.depth.data());
-    }
-}
-
-void take_color(const py::object &value, const rlf_rig &rig, Pushed &out)
-{
-    if (value.is_none()) {
-        return;
-    }
-    if (!rig.has_color) {
-        throw py::value_error("color: this pipeline's rig has no colour camera");
-    }
-    if (!py::isinstance<py::array>(value)) {
-        throw py::type_error("color: use a NumPy array");
-    }
-    out.color = value.cast<py::array>();
-    if (!out.color.dtype().is(py::dtype::of<uint8_t>())) {
-        throw py::type_error("color has dtype " + std::string(py::str(out.color.dtype())) +
-                             ": use uint8");
-    }
-    const int width = rig.color.width, height = rig.color.height;
-    const bool is_rgba = out.color.ndim() == 3 && out.color.shape(2) == 4;
-    need_shape(out.color, "color", height, width, is_rgba ? 4 : 3);
-    out.color = packed_rows(out.color);
-    auto *from = static_cast<uint8_t *>(const_cast<void *>(out.color.data()));
-    rlf_image_rgba8 image = {from, width, height, out.color.strides(0)};
-    if (!is_rgba) {
-        out.rgba.resize(size_t(4) * size_t(width) * size_t(height));
-        for (int y = 0; y < height; y++) {
-            const uint8_t *row = from + y * out.color.strides(0);
-            uint8_t *to = out.rgba.data() + size_t(4) * size_t(width) * size_t(y);
-            for (int x = 0; x < width; x++, row += 3, to += 4) {
-                std::memcpy(to, row, 3);
-                to[3] = 255;
-            }
-        }
-        image = {out.rgba.data(), width, height, ptrdiff_t(4) * width};
-    }
-    out.frame.color = image;
-}
-
-int64_t nanoseconds(double seconds)
-{
-    if (!(seconds > -4e9 && seconds < 4e9)) { // as RLF_TIME_MAX_NS
-        throw py::value_error("time: use seconds, at most 4e9");
-    }
-    return static_cast<int64_t>(seconds * 1e9 + (seconds < 0.0 ? -0.5 : 0.5));
-}
-
-class Pipeline {
-public:
+  public:
     Pipeline(const py::object &source, const py::object &scene, const std::string &profile,
              const std::string &camera, const std::string &poses, const py::object &gravity,
-             bool render, bool hands, int threads)
+             bool render, bool hands, bool grab, int threads)
         : owner_(std::make_shared<PipelineOwner>())
     {
-        check(rlf_pool_create(threads, &owner_->pool));
+        owner_->pool = make_pool(threads);
         const auto chosen = static_cast<rlf_profile>(choice_from(profile, profiles, "profile"));
         rlf_pipeline_def def = start(source, chosen, threads);
         owner_->rig = def.reconstruct.rig;
@@ -186,24 +42,29 @@ public:
         def.poses = static_cast<rlf_pose_origin>(choice_from(poses, origins, "poses"));
         def.enable_render = render;
         def.enable_hands = hands;
+        def.world.enable_grab = grab;
         if (!scene.is_none()) {
-            const auto path = py::str(scene).cast<std::string>();
+            const std::string path = path_from(scene, "scene", "the path of a scene.json");
             check(rlf_scene_load(path.c_str(), &owner_->scene));
             def.scene = &owner_->scene;
         }
-        check(rlf_pipeline_create(&def, &owner_->pipeline));
+        const rlf_vec3 down = gravity.is_none() ? rlf_vec3{} : vector_from(gravity, "gravity");
+        rlf_result result;
+        {
+            const Unlocked unlocked;
+            result = rlf_pipeline_create(&def, &owner_->pipeline);
+        }
+        check(result);
         if (!gravity.is_none()) {
-            rlf_world_set_gravity(rlf_pipeline_get_world(owner_->pipeline),
-                                  vector_from(gravity, "gravity"));
+            rlf_world_set_gravity(rlf_pipeline_get_world(owner_->pipeline), down);
         }
     }
 
     // The next step; None when a live camera has nothing new.
     py::object step()
     {
-        return run([](rlf_pipeline *p, rlf_pipeline_output *out) {
-            return rlf_pipeline_step(p, out);
-        });
+        return run(
+            [](rlf_pipeline *p, rlf_pipeline_output *out) { return rlf_pipeline_step(p, out); });
     }
 
     py::object next()
@@ -225,26 +86,37 @@ public:
                     double units_per_metre, const py::object &pose)
     {
         owner_->need_open();
-        Pushed pushed;
-        take_depth(depth, units_per_metre, owner_->rig.depth, pushed);
-        take_color(color, owner_->rig, pushed);
-        pushed.frame.time_ns = nanoseconds(time);
-        pushed.frame.sequence = owner_->step;
+        auto pushed = std::make_shared<FrameIn>();
+        take_depth(depth, units_per_metre, owner_->rig, *pushed);
+        take_color(color, owner_->rig, *pushed);
+        pushed->c.time_ns = nanoseconds(time);
+        pushed->c.sequence = owner_->steps;
         if (!pose.is_none()) {
-            pushed.frame.T_world_camera = pose_from(pose, "pose");
-            pushed.frame.has_pose = true;
+            pushed->c.T_world_camera = pose_from(pose, "pose");
+            pushed->c.has_pose = true;
         }
-        return run([&pushed](rlf_pipeline *p, rlf_pipeline_output *out) {
-            return rlf_pipeline_push(p, &pushed.frame, out);
-        });
+        return run(
+            [&pushed](rlf_pipeline *p, rlf_pipeline_output *out) {
+                return rlf_pipeline_push(p, &pushed->c, out);
+            },
+            pushed);
     }
 
     void restart()
     {
         const Use use(*owner_);
+        if (owner_->source == nullptr) {
+            throw py::value_error("restart: this pipeline has no source: make another pipeline");
+        }
         owner_->need_no_arrays("a restart");
-        check(rlf_pipeline_restart(owner_->pipeline));
-        owner_->step++;
+        owner_->steps++;
+        owner_->source->steps++;
+        rlf_result result;
+        {
+            const Unlocked unlocked;
+            result = rlf_pipeline_restart(owner_->pipeline);
+        }
+        check(result);
     }
 
     void set_view(const std::string &name)
@@ -264,14 +136,61 @@ public:
         return world_of(owner_, rlf_pipeline_get_world(owner_->pipeline));
     }
 
+    void set_hands(bool is_on)
+    {
+        owner_->need_open();
+        const Busy busy(*owner_);
+        check(rlf_pipeline_set_hands(owner_->pipeline, is_on));
+    }
+
+    py::object set_known(const std::string &name, const KnownIn &more)
+    {
+        owner_->need_open();
+        const Busy busy(*owner_);
+        return ::set_known(owner_->pipeline, name, more);
+    }
+
+    py::list known() const
+    {
+        owner_->need_open();
+        const Busy busy(*owner_);
+        return known_of(owner_->pipeline);
+    }
+
+    // Functions of the caller's, called between steps, when the pipeline is free for any call.
+    void listen(py::object Pipeline::*which, const py::object &function, const char *name)
+    {
+        owner_->need_open();
+        if (!function.is_none() && PyCallable_Check(function.ptr()) == 0) {
+            throw py::type_error(std::string(name) + ": use a function, or None");
+        }
+        this->*which = function;
+    }
+
     // Its memory goes when the last array over it does.
     void close()
     {
         const Busy busy(*owner_);
         owner_->is_closed = true;
+        on_contact = on_hand = py::none();
     }
 
-private:
+    // The rig of its frames, and their rate.
+    rlf_source_info info() const
+    {
+        owner_->need_open();
+        if (owner_->source != nullptr) {
+            return *rlf_source_get_info(source_in(owner_->source));
+        }
+        rlf_source_info info = {};
+        info.rig = owner_->rig;
+        info.frame_count = -1;
+        return info;
+    }
+
+    py::object on_contact = py::none(), on_hand = py::none();
+
+  private:
     rlf_pipeline_def start(const py::object &source, rlf_profile profile, int threads)
     {
         if (py::isinstance<rlf_rig>(source)) {
@@ -283,112 +202,172 @@ private:
             rig.depth = source.cast<rlf_camera>();
             return rlf_pipeline_def_for_rig(profile, &rig, owner_->pool);
         }
-        owner_->source = py::hasattr(source, "_owner")
-                             ? source.attr("_owner").cast<std::shared_ptr<SourceOwner>>()
-                             : open_source(py::str(source).cast<std::string>(), threads);
+        owner_->source = source_from(source, threads);
         return rlf_pipeline_def_default(profile, source_in(owner_->source), owner_->pool);
     }
 
-    template <typename Call> py::object run(Call call)
+    template <typename Call>
+    py::object run(Call call, const std::shared_ptr<FrameIn> &pushed = nullptr)
     {
-        const Use use(*owner_);
-        Step made = {owner_, {}, 0};
-        rlf_result result;
+        Step made = {owner_, {}, 0, 0, pushed};
         {
-            const py::gil_scoped_release release;
-            result = call(owner_->pipeline, &made.out);
+            const Use use(*owner_);
+            rlf_result result;
+            {
+                const Unlocked unlocked;
+                result = call(owner_->pipeline, &made.out);
+            }
+            if (check(result) == RLF_END) {
+                throw py::stop_iteration();
+            }
+            if (result == RLF_NO_FRAME) {
+                return py::none();
+            }
+            made.step = ++owner_->steps;
+            made.given = owner_->source != nullptr ? ++owner_->source->steps : 0;
         }
-        if (check(result) == RLF_END) {
-            throw py::stop_iteration();
+        py::list contacts, hands; // before a function makes the next step
+        if (!on_contact.is_none()) {
+            contacts = events_of(made.out.snapshot);
         }
-        if (result == RLF_NO_FRAME) {
-            return py::none();
+        if (!on_hand.is_none()) {
+            hands = hand_events_of(made.out.hands);
         }
-        made.step = ++owner_->step;
-        return py::cast(std::move(made));
+        py::object step = py::cast(std::move(made));
+        for (const auto &event : contacts) {
+            on_contact(*py::reinterpret_borrow<py::tuple>(event));
+        }
+        for (const auto &event : hands) {
+            on_hand(event);
+        }
+        return step;
     }
 
     std::shared_ptr<PipelineOwner> owner_;
 };
 
-py::dict times_of(const Step &s)
+// The functions of on_contact and on_hand may hold the pipeline: the collector must know.
+void let_collect(PyHeapTypeObject *heap_type)
 {
-    const rlf_stage_times &t = s.now().times;
-    py::dict out;
-    out["capture"] = t.capture_ms;
-    out["surface"] = t.surface_ms;
-    out["physics"] = t.physics_ms;
-    out["render"] = t.render_ms;
-    return out;
-}
-
-void bind_step(py::module_ &m)
-{
-    using S = const Step &;
-    py::class_<Step>(m, "Step", "What one frame gave. Good until the pipeline's next step.")
-        .def_property_readonly("index", [](S s) { return s.now().frame_index; })
-        .def_property_readonly("time", [](S s) { return s.now().time_s; },
-                               "Seconds since the first frame.")
-        .def_property_readonly("frame", [](S s) { return frame_copy(s.now().frame); },
-                               "The frame, copied.")
-        .def_property_readonly("surface",
-                               [](S s) { return surface_of(s.owner, s.now().surface); })
-        .def_property_readonly("bodies", [](S s) { return bodies_of(s.now().snapshot); })
-        .def_property_readonly("contacts", [](S s) { return contacts_of(s.now().snapshot); })
-        .def_property_readonly("events", [](S s) { return events_of(s.now().snapshot); },
-                               "(\"begin\" or \"end\", body, other) of this step.")
-        .def_property_readonly("camera_pose",
-                               [](S s) { return matrix_of(s.now().T_world_camera); },
-                               "(4, 4): the depth camera in the world.")
-        .def_property_readonly("track",
-                               [](S s) -> py::object {
-                                   const rlf_track_result *track = s.now().track;
-                                   return track == nullptr
-                                              ? py::object(py::none())
-                                              : py::str(rlf_track_health_name(track->health));
-                               },
-                               "\"good\", \"weak\" or \"lost\" of a moving camera; else None.")
-        .def_property_readonly("picture", [](S s) { return s.image(s.now().render.image); },
-                               "(H, W, 4) uint8, or None without rendering.")
-        .def_property_readonly("matte",
-                               [](S s) -> py::object {
-                                   const rlf_plane_u8 &matte = s.now().render.matte;
-                                   if (matte.data == nullptr) {
-                                       return py::none();
-                                   }
-                                   return view_of(s.owner, py::dtype::of<uint8_t>(), matte.data,
-                                                  {matte.height, matte.width}, {matte.stride, 1});
-                               },
-                               "(H, W) uint8, alpha of all that is virtual.")
-        .def_property_readonly("times_ms", &times_of, "Wall time of the stages.")
-        .def_property_readonly("latency_ms", [](S s) { return s.now().latency_ms; });
+    PyTypeObject *type = &heap_type->ht_type;
+    type->tp_flags |= Py_TPFLAGS_HAVE_GC;
+    type->tp_traverse = [](PyObject *self, visitproc visit, void *arg) {
+        Py_VISIT(Py_TYPE(self));
+        if (reinterpret_cast<py::detail::instance *>(self)->simple_holder_constructed) {
+            const auto &p = py::cast<const Pipeline &>(py::handle(self));
+            Py_VISIT(p.on_contact.ptr());
+            Py_VISIT(p.on_hand.ptr());
+        }
+        return 0;
+    };
+    type->tp_clear = [](PyObject *self) {
+        auto &p = py::cast<Pipeline &>(py::handle(self));
+        p.on_contact = p.on_hand = py::none();
+        return 0;
+    };
 }
 
 } // namespace
 
+PipelineOwner::~PipelineOwner()
+{
+    const Unlocked unlocked;
+    rlf_pipeline_destroy(&pipeline);
+    rlf_scene_destroy(&scene);
+    rlf_pool_destroy(&pool);
+}
+
+rlf_source_info info_from(const py::object &source)
+{
+    if (py::isinstance<Pipeline>(source)) {
+        return source.cast<const Pipeline &>().info();
+    }
+    rlf_source_info info = {};
+    info.frame_count = -1;
+    if (py::isinstance<rlf_rig>(source)) {
+        info.rig = source.cast<rlf_rig>();
+        return info;
+    }
+    if (py::isinstance<rlf_camera>(source)) {
+        info.rig = rlf_rig_default();
+        info.rig.depth = source.cast<rlf_camera>();
+        return info;
+    }
+    if (py::isinstance<py::str>(source) || py::hasattr(source, "__fspath__")) {
+        throw py::type_error("source: use a Source, a Pipeline, a Rig or a Camera");
+    }
+    return *rlf_source_get_info(source_in(source_from(source, 1)));
+}
+
 void bind_pipeline(py::module_ &m)
 {
-    bind_step(m);
-    py::class_<Pipeline>(m, "Pipeline", "The frame loop: source, surface, physics, picture.")
+    py::class_<Pipeline>(
+        m, "Pipeline",
+        "The frame loop: source, surface, physics, picture. One thread at a time; any "
+        "number of pipelines in threads of their own.",
+        py::custom_type_setup(&let_collect))
         .def(py::init<const py::object &, const py::object &, const std::string &,
                       const std::string &, const std::string &, const py::object &, bool, bool,
-                      int>(),
+                      bool, int>(),
              py::arg("source"), py::kw_only(), py::arg("scene") = py::none(),
              py::arg("profile") = "live", py::arg("camera") = "auto", py::arg("poses") = "tracked",
              py::arg("gravity") = py::none(), py::arg("render") = true, py::arg("hands") = false,
-             py::arg("threads") = 0,
+             py::arg("grab") = false, py::arg("threads") = 0,
              "source: a name as for open(), a Source, or a Rig or Camera whose frames are pushed. "
-             "scene: the path of a scene.json.")
+             "scene: the path of a scene.json. gravity: m/s^2, world. hands: looks for them. grab: "
+             "hands hold what they close on. threads 0 = one per processor.")
         .def("step", &Pipeline::step, "The next Step; None when a live camera has nothing new.")
         .def("push", &Pipeline::push, py::arg("depth"), py::arg("color") = py::none(),
              py::kw_only(), py::arg("time"), py::arg("units_per_metre") = 1000.0,
              py::arg("pose") = py::none(),
-             "A step with a frame of your own: depth (H, W) uint16 or float32 metres, color (H, W, 3 "
-             "or 4) uint8, time in seconds.")
-        .def("restart", &Pipeline::restart, "As at the first frame.")
-        .def("set_view", &Pipeline::set_view, py::arg("name"), "What the next pictures show.")
-        .def_property_readonly("world", &Pipeline::world)
-        .def("close", &Pipeline::close)
+             "A step with a frame of your own: depth (H, W) uint16 or float32 metres, color (H, W, "
+             "3 "
+             "or 4) uint8, time in seconds, pose (4, 4) of the depth camera in the world.")
+        .def("restart", &Pipeline::restart,
+             "As at the first frame. BufferError while arrays show memory.")
+        .def("set_view", &Pipeline::set_view, py::arg("name"),
+             "What the next pictures show: one of relief.view_names.")
+        .def("set_hands", &Pipeline::set_hands, py::arg("is_on"),
+             "Looks for hands from the next frame on, or no longer.")
+        .def(
+            "set_known",
+            [](Pipeline &p, const std::string &name, const std::string &shape,
+               const py::object &size, double radius, double height, const py::object &pose,
+               const py::object &points, bool refine, bool collides, double restitution,
+               double friction) {
+                return p.set_known(name, {shape, size, radius, height, pose, points, refine,
+                                          collides, restitution, friction});
+            },
+            py::arg("name"), py::arg("shape") = "box", py::arg("size") = py::none(),
+            py::arg("radius") = 0.05, py::arg("height") = 0.1, py::kw_only(),
+            py::arg("pose") = py::none(), py::arg("points") = py::none(), py::arg("refine") = true,
+            py::arg("collides") = true, py::arg("restitution") = 0.0, py::arg("friction") = 0.5,
+            "Adds a model of a real thing, or moves the one of that name: it hides and collides "
+            "with "
+            "its whole shape. pose: (4, 4), model in the world; or points: three to six of (model, "
+            "place), model being three metres in the shape's frame or a name as \"ltn\" (left top "
+            "near), place a pixel (x, y) of the last frame or three metres in the world. Gives how "
+            "well the pose fits, a KnownFit.")
+        .def_property_readonly("known", &Pipeline::known, "Known of each model of a real thing.")
+        .def(
+            "on_contact",
+            [](Pipeline &p, const py::object &function) {
+                p.listen(&Pipeline::on_contact, function, "on_contact");
+            },
+            py::arg("function"),
+            "Calls function(kind, body, other) for each of Step.events, before the step is "
+            "returned; None ends that. It may use the pipeline. What it raises comes out of the "
+            "step, "
+            "which is made all the same.")
+        .def(
+            "on_hand",
+            [](Pipeline &p, const py::object &function) {
+                p.listen(&Pipeline::on_hand, function, "on_hand");
+            },
+            py::arg("function"), "The same with function(event) for each of Step.hand_events.")
+        .def_property_readonly("world", &Pipeline::world,
+                               "Its bodies: add, move and remove them between steps.")
+        .def("close", &Pipeline::close, "Its arrays stay good; nothing else does.")
         .def("__iter__", [](py::object self) { return self; })
         .def("__next__", &Pipeline::next)
         .def("__enter__", [](py::object self) { return self; })

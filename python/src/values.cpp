@@ -4,7 +4,8 @@
 #include <cmath>
 #include <cstring>
 
-namespace {
+namespace
+{
 
 constexpr double rotation_tolerance = 1e-4; // of a column's length and of the angles between them
 
@@ -56,11 +57,18 @@ rlf_rig make_rig(const rlf_camera &depth, const py::object &color, const py::obj
     rlf_rig rig = rlf_rig_default();
     rig.depth = depth;
     if (!color.is_none()) {
+        if (!py::isinstance<rlf_camera>(color)) {
+            throw py::type_error("color: use a Camera, or None");
+        }
         rig.color = color.cast<rlf_camera>();
         rig.has_color = true;
     }
     if (!transform.is_none()) {
         rig.T_color_depth = pose_from(transform, "color_from_depth");
+    }
+    if (!(range.first >= 0.0 && range.first < range.second && std::isfinite(range.second))) {
+        throw py::value_error("depth_range: use (nearest, farthest) in metres, 0 <= nearest < "
+                              "farthest");
     }
     rig.depth_min_m = range.first;
     rig.depth_max_m = range.second;
@@ -77,18 +85,20 @@ void bind_camera(py::module_ &m)
         .def(py::init(&make_camera), py::arg("width"), py::arg("height"), py::arg("fx"),
              py::arg("fy"), py::arg("cx"), py::arg("cy"), py::arg("distortion_model") = "none",
              py::arg("distortion") = std::vector<double>())
-        .def_readonly("width", &rlf_camera::width)
-        .def_readonly("height", &rlf_camera::height)
-        .def_readonly("fx", &rlf_camera::fx)
-        .def_readonly("fy", &rlf_camera::fy)
-        .def_readonly("cx", &rlf_camera::cx)
-        .def_readonly("cy", &rlf_camera::cy)
-        .def_property_readonly("distortion_model",
-                               [](const rlf_camera &c) { return models[c.distortion_model]; })
-        .def_property_readonly("distortion",
-                               [](const rlf_camera &c) {
-                                   return std::vector<double>(c.distortion, c.distortion + 8);
-                               })
+        .def_readonly("width", &rlf_camera::width, "Pixels.")
+        .def_readonly("height", &rlf_camera::height, "Pixels.")
+        .def_readonly("fx", &rlf_camera::fx, "Focal length along x, pixels.")
+        .def_readonly("fy", &rlf_camera::fy, "Focal length along y, pixels.")
+        .def_readonly("cx", &rlf_camera::cx,
+                      "Principal point, pixels; (0, 0) = centre of the first one.")
+        .def_readonly("cy", &rlf_camera::cy, "The same along y.")
+        .def_property_readonly(
+            "distortion_model", [](const rlf_camera &c) { return models[c.distortion_model]; },
+            "\"none\", \"plumb_bob\" or \"rational_polynomial\", as OpenCV and ROS have them.")
+        .def_property_readonly(
+            "distortion",
+            [](const rlf_camera &c) { return std::vector<double>(c.distortion, c.distortion + 8); },
+            "k1 k2 p1 p2 k3 k4 k5 k6.")
         .def("__repr__", [](const rlf_camera &c) {
             return "<relief.Camera " + std::to_string(c.width) + " x " + std::to_string(c.height) +
                    ">";
@@ -113,6 +123,30 @@ rlf_vec3 vector_from(const py::object &value, const char *name)
 {
     const Doubles a = numbers_from(value, name, {3}, "three finite numbers");
     return {a.data()[0], a.data()[1], a.data()[2]};
+}
+
+double number_from(const py::handle &value, const char *name)
+{
+    const double number = PyFloat_AsDouble(value.ptr());
+    if (number == -1.0 && PyErr_Occurred() != nullptr) {
+        PyErr_Clear();
+        throw py::type_error(std::string(name) + ": use a number");
+    }
+    return number;
+}
+
+std::string path_from(const py::object &value, const char *name, const char *kinds)
+{
+    const auto path = py::reinterpret_steal<py::object>(PyOS_FSPath(value.ptr()));
+    if (!path || !PyUnicode_Check(path.ptr())) {
+        PyErr_Clear();
+        throw py::type_error(std::string(name) + ": use " + kinds);
+    }
+    const auto text = path.cast<std::string>();
+    if (text.find('\0') != std::string::npos) {
+        throw py::value_error(std::string(name) + ": holds a zero byte");
+    }
+    return text;
 }
 
 rlf_pose pose_from(const py::object &value, const char *name)
@@ -158,24 +192,30 @@ int choice_from(const std::string &value, const char *const *words, const char *
 void bind_values(py::module_ &m)
 {
     bind_camera(m);
-    py::class_<rlf_rig>(m, "Rig",
-                        "The cameras of a sensor: depth, colour where there is one, the pose between them "
-                        "(p_color = color_from_depth p_depth), the range in metres and the noise of "
-                        "depth, sigma(z) = c0 + c1 z + c2 z^2 metres.")
+    py::class_<rlf_rig>(
+        m, "Rig",
+        "The cameras of a sensor: depth, colour where there is one, the pose between them "
+        "(p_color = color_from_depth p_depth), the range in metres and the noise of "
+        "depth, sigma(z) = c0 + c1 z + c2 z^2 metres.")
         .def(py::init(&make_rig), py::arg("depth"), py::arg("color") = py::none(),
              py::arg("color_from_depth") = py::none(),
              py::arg("depth_range") = std::make_pair(0.1, 8.0), py::arg("noise") = py::none())
-        .def_readonly("depth", &rlf_rig::depth)
-        .def_property_readonly("color",
-                               [](const rlf_rig &r) -> py::object {
-                                   return r.has_color ? py::cast(r.color) : py::none();
-                               })
-        .def_property_readonly("color_from_depth",
-                               [](const rlf_rig &r) { return matrix_of(r.T_color_depth); })
+        .def_readonly("depth", &rlf_rig::depth, "Camera of the depth pictures.")
+        .def_property_readonly(
+            "color",
+            [](const rlf_rig &r) -> py::object {
+                return r.has_color ? py::cast(r.color) : py::none();
+            },
+            "Camera of the colour pictures, or None.")
+        .def_property_readonly(
+            "color_from_depth", [](const rlf_rig &r) { return matrix_of(r.T_color_depth); },
+            "(4, 4): p_color = color_from_depth p_depth, metres.")
         .def_property_readonly(
             "depth_range",
-            [](const rlf_rig &r) { return py::make_tuple(r.depth_min_m, r.depth_max_m); })
-        .def_property_readonly("noise", [](const rlf_rig &r) {
-            return py::make_tuple(r.noise.c0, r.noise.c1, r.noise.c2);
-        });
+            [](const rlf_rig &r) { return py::make_tuple(r.depth_min_m, r.depth_max_m); },
+            "(nearest, farthest) that the sensor measures, metres.")
+        .def_property_readonly(
+            "noise",
+            [](const rlf_rig &r) { return py::make_tuple(r.noise.c0, r.noise.c1, r.noise.c2); },
+            "(c0, c1, c2) of depth's standard deviation c0 + c1 z + c2 z^2, metres.");
 }

@@ -20,3 +20,9 @@ if(TARGET relief_app AND PROJECT_BINARY_DIR STREQUAL "${PROJECT_SOURCE_DIR}/buil
            ${CMAKE_CURRENT_BINARY_DIR}/demo)
   set_tests_properties(docs.demo PROPERTIES LABELS docs TIMEOUT 1800)
 endif()
+add_test(NAME docs.site COMMAND ${CMAKE_CURRENT_LIST_DIR}/site.sh ${PROJECT_SOURCE_DIR}
+         ${CMAKE_CURRENT_BINARY_DIR}/site)
+set_tests_properties(docs.site PROPERTIES LABELS docs SKIP_RETURN_CODE 77 TIMEOUT 600)
+add_test(NAME docs.snippets COMMAND ${CMAKE_CURRENT_LIST_DIR}/snippets.sh ${PROJECT_SOURCE_DIR}
+         ${CMAKE_CURRENT_BINARY_DIR}/snippets ${CMAKE_C_COMPILER})
+set_tests_properties(docs.snippets PROPERTIES LABELS docs TIMEOUT 60)

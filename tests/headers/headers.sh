@@ -67,9 +67,15 @@ measure() {
     END { printf "%s %d %d %.2f\n", name, comments, lines, comments / lines }' "$1"
 }
 least=0.90
+comments=0
+code=0
 for path in "$include"/relief/*.h; do
     result=$(measure "$path")
     ratio=${result##* }
+    rest=${result#* }
+    comments=$((comments + ${rest%% *}))
+    rest=${rest#* }
+    code=$((code + ${rest%% *}))
     if awk "BEGIN { exit !($ratio < $least) }"; then
         echo "headers: $(basename "$path"): comment : code is $ratio, at least $least is asked for" >&2
         failed=yes
@@ -78,4 +84,4 @@ done
 if [ "$failed" = yes ]; then
     exit 1
 fi
-echo "headers: $count compile alone"
+echo "headers: $count compile alone; $comments lines of comment for $code of code"
