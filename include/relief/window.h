@@ -19,7 +19,9 @@ extern "C" {
 /* ---- the start page
  * ------------------------------------------------------------------------------------- */
 
+/* Entries of a list at most. */
 #define RLF_WINDOW_CHOICES_MAX 64
+/* Room for the name of a source or file, with its ending zero. */
 #define RLF_WINDOW_SOURCE_SIZE 1024
 
 /* A line of the start page, and of the panel's lists. */
@@ -60,7 +62,7 @@ typedef bool (*rlf_window_status_fn)(void *context, char *out, size_t size);
 
 /* What the window shows. All borrowed. */
 typedef struct rlf_window_stage {
-    rlf_pipeline *pipeline;
+    rlf_pipeline *pipeline;   /* required */
     rlf_source *source;       /* asked for the time without frames; NULL = never */
     rlf_playback *playback;   /* of the source; NULL = a camera, or played once to its end */
     const char *source_name;  /* shown on screen; "" = none */
@@ -86,11 +88,12 @@ typedef rlf_result (*rlf_window_model_fn)(void *context, const char *path, doubl
 
 /* A setting of the surface for people: its name, what it means, what it may be and what it is. */
 typedef struct rlf_window_setting {
-    const char *name, *meaning;
+    const char *name;         /* as `--set` takes it */
+    const char *meaning;      /* one line */
     const char *const *words; /* ends with NULL; a switch has "off" and "on". NULL = a number */
-    bool is_switch;
-    char value[32];   /* now */
-    const char *need; /* what is missing for it to have an effect; NULL = nothing */
+    bool is_switch;           /* its words are "off" and "on" */
+    char value[32];           /* now */
+    const char *need;         /* what is missing for it to have an effect; NULL = nothing */
 } rlf_window_setting;
 
 /* Describes setting `index`, from 0, as it is in *def; false when there are no more. */
@@ -114,11 +117,12 @@ typedef struct rlf_window_def {
     bool show_help;          /* list the keys at first; default true */
     bool hides_overlay;      /* no text at first; default false */
     bool overlay_everywhere; /* text also in full screen; default false */
-    bool is_fullscreen, is_mirrored;
-    bool hides_panel;                   /* default false */
-    int32_t monitor;                    /* from 1; 0 = the primary one */
-    rlf_view views[RLF_PIPELINE_VIEWS]; /* to start with */
-    int32_t view_count;
+    bool is_fullscreen;      /* default false */
+    bool is_mirrored;        /* as a mirror shows it; default false */
+    bool hides_panel;        /* default false */
+    int32_t monitor;         /* from 1; 0 = the primary one */
+    rlf_view views[RLF_PIPELINE_VIEWS];       /* to start with */
+    int32_t view_count;                       /* 1, or 2 side by side; default 1 */
     rlf_orbit orbit;                          /* likewise */
     rlf_pose T_world_camera;                  /* as the pipeline's */
     rlf_window_next_fn next;                  /* NULL = frames come from the pipeline's source */
