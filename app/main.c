@@ -152,7 +152,7 @@ static int run(int argc, char **argv)
         return EXIT_DONE;
     }
     if (is_either(name, "--version", "-V")) {
-        printf("relief %d.%d.%d\n", RLF_VERSION_MAJOR, RLF_VERSION_MINOR, RLF_VERSION_PATCH);
+        printf("relief %s\n", rlf_version());
         parts_print();
         return EXIT_DONE;
     }

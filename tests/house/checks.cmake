@@ -47,15 +47,33 @@ endif()
 
 # A sanitized library would ask the stranger's program for the same sanitizers.
 if(NOT RELIEF_SANITIZE)
-  house_check(install ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR} -DBUILD=${PROJECT_BINARY_DIR}
-              -DNM=${CMAKE_NM}
-              -DWORK=${CMAKE_CURRENT_BINARY_DIR}/install\ here -DCONSUMER=${house}/consumer
-              -DCC=${CMAKE_C_COMPILER} -DGENERATOR=${CMAKE_GENERATOR} -DCONFIG=$<CONFIG>
+  include(CheckLanguage)
+  check_language(CXX)
+  set(has_both OFF)
+  if(RELIEF_LIBRARIES STREQUAL "both")
+    set(has_both ON)
+  endif()
+  foreach(kind IN LISTS relief_kinds)
+    set(name install)
+    if(kind STREQUAL "shared")
+      set(name shared)
+    endif()
+    house_check(${name} ${CMAKE_COMMAND} -DKIND=${kind} -DHAS_BOTH=${has_both}
+                -DROOT=${PROJECT_SOURCE_DIR} -DBUILD=${PROJECT_BINARY_DIR} -DNM=${CMAKE_NM}
+                -DWORK=${CMAKE_CURRENT_BINARY_DIR}/${name}\ here -DCONSUMER=${house}/consumer
+                -DCC=${CMAKE_C_COMPILER} -DCXX=${CMAKE_CXX_COMPILER} -DGENERATOR=${CMAKE_GENERATOR}
+                -DCONFIG=$<CONFIG> -DWITH_IO=$<TARGET_EXISTS:relief_io>
+                -DWITH_GL=$<TARGET_EXISTS:relief_gl> -DWITH_APP=$<TARGET_EXISTS:relief_app>
+                -P ${house}/install.cmake)
+  endforeach()
+  house_check(embedded ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR}
+              -DWORK=${CMAKE_CURRENT_BINARY_DIR}/embedded -DCC=${CMAKE_C_COMPILER}
               -DWITH_IO=$<TARGET_EXISTS:relief_io> -DWITH_GL=$<TARGET_EXISTS:relief_gl>
-              -DWITH_APP=$<TARGET_EXISTS:relief_app> -P ${house}/install.cmake)
-  house_check(shared ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR} -DNM=${CMAKE_NM}
-              -DWORK=${CMAKE_CURRENT_BINARY_DIR}/shared -DCONSUMER=${house}/consumer
-              -DCC=${CMAKE_C_COMPILER} -DGENERATOR=${CMAKE_GENERATOR}
-              -DWITH_IO=$<TARGET_EXISTS:relief_io> -DWITH_GL=$<TARGET_EXISTS:relief_gl>
-              -DWITH_APP=NO -P ${house}/shared.cmake)
+              -P ${house}/embedded.cmake)
+  add_test(NAME golden.other_compiler
+           COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR} -DCC=${CMAKE_C_COMPILER}
+                   -DWORK=${CMAKE_CURRENT_BINARY_DIR}/other_compiler
+                   -P ${house}/../golden/other_compiler.cmake)
+  set_tests_properties(golden.other_compiler PROPERTIES LABELS golden TIMEOUT 1800
+                       SKIP_REGULAR_EXPRESSION "other_compiler: SKIPPED")
 endif()

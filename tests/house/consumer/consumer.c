@@ -53,7 +53,6 @@ int main(void)
     rlf_gl_presenter_destroy(NULL);
 #endif
     rlf_source_destroy(&source);
-    printf("Relief %d.%d.%d: fell %.2f m\n", RLF_VERSION_MAJOR, RLF_VERSION_MINOR,
-           RLF_VERSION_PATCH, y);
+    printf("Relief %s: fell %.2f m\n", rlf_version(), y);
     return opened == RLF_OK && y > 4.8 && y < 5.0 && stolen_calls == 0 ? 0 : 1;
 }
