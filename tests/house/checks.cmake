@@ -66,6 +66,15 @@ if(NOT RELIEF_SANITIZE)
                 -DWITH_GL=$<TARGET_EXISTS:relief_gl> -DWITH_APP=$<TARGET_EXISTS:relief_app>
                 -P ${house}/install.cmake)
   endforeach()
+  foreach(part relief relief_io relief_gl)
+    if(TARGET ${part}_shared)
+      string(REPLACE "_" "-" package lib${part})
+      house_check(abi_${part} ${house}/abi.sh ${CMAKE_NM} $<TARGET_FILE:${part}_shared>
+                  ${PROJECT_SOURCE_DIR}/debian/${package}${relief_soversion}.symbols)
+    endif()
+  endforeach()
+  house_check(abi_rejects ${house}/abi_rejects.sh ${house}/abi.sh ${CMAKE_CURRENT_BINARY_DIR}/abi
+              ${CMAKE_C_COMPILER} ${CMAKE_NM})
   house_check(embedded ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR}
               -DWORK=${CMAKE_CURRENT_BINARY_DIR}/embedded -DCC=${CMAKE_C_COMPILER}
               -DWITH_IO=$<TARGET_EXISTS:relief_io> -DWITH_GL=$<TARGET_EXISTS:relief_gl>
