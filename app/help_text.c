@@ -41,15 +41,20 @@ static void add_words(const char *from, size_t length, char *out, size_t size)
     (void)snprintf(out + used, size - used, "%s%s", used > 0 ? " " : "", text + blanks);
 }
 
-/* "  --NAME ARGUMENT   what it does": the last part, which two blanks part from the others. */
+/* "  --NAME ARGUMENT   what it does": the last part, which two blanks part from the others, or one
+ * where the argument is long. */
 static const char *meaning(const char *text, size_t length)
 {
-    for (size_t i = 2; i + 2 < length; i++) {
+    size_t second = length;
+    for (size_t i = 2, blanks = 0; i + 1 < length; i++) {
         if (text[i] == ' ' && text[i + 1] == ' ') {
             return text + i;
         }
+        if (text[i] == ' ' && ++blanks == 2) {
+            second = i;
+        }
     }
-    return text + length;
+    return text + second;
 }
 
 /* Whether the line is about the option. */

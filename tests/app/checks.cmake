@@ -20,6 +20,12 @@ if(TARGET relief_app)
     set_tests_properties(app.completion_${shell} PROPERTIES LABELS app SKIP_RETURN_CODE 77 TIMEOUT 600)
   endforeach()
 endif()
+if(TARGET relief_man)
+  add_test(NAME app.man
+           COMMAND ${CMAKE_CURRENT_LIST_DIR}/test_man.sh $<TARGET_FILE:relief_app>
+                   ${PROJECT_BINARY_DIR}/app/man)
+  set_tests_properties(app.man PROPERTIES LABELS app SKIP_RETURN_CODE 77 TIMEOUT 600)
+endif()
 
 # Fusing as a user meets it.
 if(TARGET relief_app)
