@@ -84,5 +84,5 @@ else
 fi
 # The rooms are those that `relief sources` names.
 "$relief" sources | sed -n 's/^    NAME: //p' | tr -d , | tr ' ' '\n' | sed 's/^/synthetic:/' | sort >rooms.txt
-"$relief" help --complete run '' | sed -n 's/^\(synthetic:[^	]*\).*/\1/p' | sort | cmp - rooms.txt
+"$relief" help --complete run '' | cut -f 1 | grep '^synthetic:' | sort | cmp - rooms.txt
 echo "completion: $shell: as the tables say"

@@ -20,7 +20,7 @@ done
     exit 77
 }
 count=0
-for command in "" $("$relief" help --complete '' | sed -n 's/^\([a-z]*\)	.*/\1/p' | grep -vx help); do
+for command in "" $("$relief" help --complete '' | cut -f 1 | grep -v '^-' | grep -vx help); do
     page=$folder/relief${command:+-$command}.1
     [ -s "$page" ] || fail "no page $page"
     for checker in $checkers; do
