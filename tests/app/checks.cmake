@@ -20,6 +20,9 @@ if(TARGET relief_app)
     set_tests_properties(app.completion_${shell} PROPERTIES LABELS app SKIP_RETURN_CODE 77 TIMEOUT 600)
   endforeach()
 endif()
+add_test(NAME app.desktop COMMAND ${CMAKE_CURRENT_LIST_DIR}/test_desktop.sh
+         ${PROJECT_SOURCE_DIR}/app/desktop)
+set_tests_properties(app.desktop PROPERTIES LABELS app SKIP_RETURN_CODE 77 TIMEOUT 60)
 if(TARGET relief_man)
   add_test(NAME app.man
            COMMAND ${CMAKE_CURRENT_LIST_DIR}/test_man.sh $<TARGET_FILE:relief_app>
