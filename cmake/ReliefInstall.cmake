@@ -120,8 +120,11 @@ install(FILES ${PROJECT_BINARY_DIR}/relief-config.cmake
 
 # ---- the command ---------------------------------------------------------------------------------
 if(TARGET relief_app)
-  set_target_properties(relief_app PROPERTIES
-                        INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR};$ORIGIN/../${CMAKE_INSTALL_LIBDIR}/relief")
+  set(rpath "$ORIGIN/../${CMAKE_INSTALL_LIBDIR};$ORIGIN/../${CMAKE_INSTALL_LIBDIR}/relief")
+  if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+    set(rpath ${CMAKE_INSTALL_FULL_LIBDIR}/relief)
+  endif()
+  set_target_properties(relief_app PROPERTIES INSTALL_RPATH "${rpath}")
   install(TARGETS relief_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(DIRECTORY scenes clips DESTINATION ${CMAKE_INSTALL_DATADIR}/relief)
 endif()

@@ -149,6 +149,12 @@ function(relief_one_object target out)
   set(${out} ${object} PARENT_SCOPE)
 endfunction()
 
+# Libraries find each other where they are installed together; under /usr the loader looks by itself.
+set(relief_rpath "$ORIGIN")
+if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+  set(relief_rpath "")
+endif()
+
 # relief_library(TARGET NAME KIND OBJECT): relief::NAME_static or relief::NAME_shared of one object.
 function(relief_library target name kind object)
   set(library ${target}_${kind})
@@ -158,7 +164,7 @@ function(relief_library target name kind object)
   add_library(relief::${name}_${kind} ALIAS ${library})
   set_target_properties(${library} PROPERTIES LINKER_LANGUAGE C EXPORT_NAME ${name}_${kind}
                         OUTPUT_NAME ${target} VERSION ${PROJECT_VERSION}
-                        SOVERSION ${relief_soversion} INSTALL_RPATH "$ORIGIN")
+                        SOVERSION ${relief_soversion} INSTALL_RPATH "${relief_rpath}")
   if(kind STREQUAL "shared")
     target_link_options(${library} PRIVATE LINKER:-Bsymbolic-functions)
   endif()
