@@ -5,8 +5,10 @@ set -eu
 
 folder=$1
 cd /tmp
-export DEBIAN_FRONTEND=noninteractive
-names=$(for package in "$folder"/*.deb; do dpkg-deb -f "$package" Package; done)
+export DEBIAN_FRONTEND=noninteractive MANPAGER='cat'
+names=$(for package in "$folder"/*.deb; do
+    dpkg-deb -f "$package" Package
+done)
 
 say() {
     echo "try_packages: $1"
@@ -33,9 +35,9 @@ relief run synthetic:room --headless --frames 2 --quiet --renderer gl --pictures
 [ -s gl/000000.png ]
 say "relief run: two renderers"
 for page in relief relief-run relief-bench; do
-    MANPAGER=cat man $page | grep -q SYNOPSIS
+    man $page | grep -q SYNOPSIS
 done
-say "man: $(MANPAGER=cat man relief-run | wc -l) lines of relief-run(1)"
+say "man: $(man relief-run | wc -l) lines of relief-run(1)"
 [ -f /usr/share/applications/io.github.relief_authors.relief.desktop ]
 python3 -c 'import relief; s = relief.Pipeline("synthetic:room"); print("import relief:", relief.__version__)'
 
