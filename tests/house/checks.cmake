@@ -66,7 +66,9 @@ if(NOT RELIEF_SANITIZE)
                 -DWITH_GL=$<TARGET_EXISTS:relief_gl> -DWITH_APP=$<TARGET_EXISTS:relief_app>
                 -P ${house}/install.cmake)
   endforeach()
-  foreach(part relief relief_io relief_gl)
+  # Each shared library has a list of its own; a new one needs its package in debian/, too.
+  house_check(deb_version grep -q "^relief (${PROJECT_VERSION})" ${PROJECT_SOURCE_DIR}/debian/changelog)
+  foreach(part relief relief_io relief_gl relief_sim relief_window)
     if(TARGET ${part}_shared)
       string(REPLACE "_" "-" package lib${part})
       house_check(abi_${part} ${house}/abi.sh ${CMAKE_NM} $<TARGET_FILE:${part}_shared>
