@@ -18,7 +18,7 @@ class CMakeBuild(build_ext):
         options = [f"-DRELIEF_{name}=OFF" for name in (
             "BUILD_TESTS", "BUILD_APP", "BUILD_EXAMPLES", "BUILD_BENCH", "WITH_GL", "WITH_VIEWER")]
         subprocess.run(["cmake", "-S", ROOT, "-B", build, "-G", "Ninja",
-                        "-DCMAKE_BUILD_TYPE=Release", "-DRELIEF_WITH_PYTHON=ON",
+                        "-DCMAKE_BUILD_TYPE=Release", "-DRELIEF_WITH_PYTHON=ON", "-DRELIEF_LIBRARIES=static",
                         f"-DPython_EXECUTABLE={sys.executable}", *options], check=True)
         subprocess.run(["cmake", "--build", build, "--target", "relief_python"], check=True)
         target.parent.mkdir(parents=True, exist_ok=True)

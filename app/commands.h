@@ -2,6 +2,12 @@
 #ifndef RELIEF_APP_COMMANDS_H
 #define RELIEF_APP_COMMANDS_H
 
+typedef struct subcommand {
+    const char *name;
+    int (*main)(int argc, char **argv);
+    const char *summary;
+} subcommand;
+
 /* One per subcommand; argv[0] is the subcommand's name. */
 int run_main(int argc, char **argv);
 /* As `relief run` without a SOURCE; -1 where there is no window to choose one in. */

@@ -68,6 +68,16 @@ static bool take_range(const char *text, void *out)
     return command_parse_range(text, &range->begin, &range->end);
 }
 
+/* Of all that can be written, ended with NULL. */
+static const char *const *kind_names(void)
+{
+    static const char *names[EXPORT_KINDS_MAX + 4] = {"mesh", "regions", "true_poses"};
+    for (int i = 0; i < export_kind_count; i++) {
+        names[3 + i] = export_kinds[i].name;
+    }
+    return names;
+}
+
 static int parse(int argc, char **argv, export_options *o)
 {
     o->session = session_options_default();
@@ -75,7 +85,7 @@ static int parse(int argc, char **argv, export_options *o)
     session_options *s = &o->session;
     const option_def options[] = {
         {.name = "out", .kind = OPTION_FOLDER, .out = &o->out_folder},
-        {.name = "what", .kind = OPTION_TEXT, .out = &o->what},
+        {.name = "what", .kind = OPTION_TEXT, .out = &o->what, .names = kind_names()},
         {.name = "frames",
          .kind = OPTION_CHOICE,
          .out = &o->frames,
@@ -105,13 +115,9 @@ static int parse(int argc, char **argv, export_options *o)
 
 static int refuse_kind(const char *name)
 {
-    const char *names[EXPORT_KINDS_MAX + 4] = {"mesh", "regions", "true_poses"};
-    for (int i = 0; i < export_kind_count; i++) {
-        names[3 + i] = export_kinds[i].name;
-    }
     char nearest[SUGGEST_TEXT];
     return command_usage("export", "--what '%s' is not an array: %s", name,
-                         suggest_text(name, names, false, nearest));
+                         suggest_text(name, kind_names(), false, nearest));
 }
 
 /* Adds one name of the list; an exit status when it cannot be written. */

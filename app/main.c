@@ -1,18 +1,13 @@
 /* The `relief` command: finds the subcommand. */
 #include "command.h"
 #include "commands.h"
+#include "complete.h"
 #include "parts.h"
 #include "streams.h"
 #include "suggest.h"
 
 #include <stdio.h>
 #include <string.h>
-
-typedef struct subcommand {
-    const char *name;
-    int (*main)(int argc, char **argv);
-    const char *summary;
-} subcommand;
 
 static const subcommand subcommands[] = {
     {"run", run_main, "show a source with virtual bodies, in a window or headless"},
@@ -28,8 +23,9 @@ static const subcommand subcommands[] = {
     {"eval", eval_main, "accuracy where the truth is known, against goals and bounds"},
     {"measure", measure_main, "missing points and wrong normals: table 5.1 of the thesis"},
     {"bench", bench_main, "time and memory of every stage, and how they grow"},
+    {NULL, NULL, NULL},
 };
-#define SUBCOMMAND_COUNT ((int)(sizeof(subcommands) / sizeof(subcommands[0])))
+#define SUBCOMMAND_COUNT ((int)(sizeof(subcommands) / sizeof(subcommands[0])) - 1)
 
 /* Listed apart: they tell what Relief is worth, and do nothing for a user. */
 static bool is_measuring(const subcommand *s)
@@ -99,9 +95,12 @@ static int refuse_more(const char *after, const char *argument)
     return EXIT_USAGE;
 }
 
-/* `relief help` and `relief help COMMAND`. */
+/* `relief help` and `relief help COMMAND`; and what completion asks. */
 static int help(int argc, char **argv)
 {
+    if (argc > 2 && strcmp(argv[2], "--complete") == 0) {
+        return complete_print(subcommands, argc - 3, argv + 3);
+    }
     const bool is_asked = argc > 2 && !is_either(argv[2], "--help", "-h");
     const subcommand *found = is_asked ? find(argv[2]) : NULL;
     if (is_asked && found == NULL) {
@@ -152,7 +151,7 @@ static int run(int argc, char **argv)
         return EXIT_DONE;
     }
     if (is_either(name, "--version", "-V")) {
-        printf("relief %d.%d.%d\n", RLF_VERSION_MAJOR, RLF_VERSION_MINOR, RLF_VERSION_PATCH);
+        printf("relief %s\n", rlf_version());
         parts_print();
         return EXIT_DONE;
     }

@@ -207,9 +207,20 @@ static void move_up(char **argv, int from, int to, int *first)
     }
 }
 
+static options_visit_fn visitor;
+
+void options_visit(options_visit_fn visit)
+{
+    visitor = visit;
+}
+
 int options_parse(const char *command, int argc, char **argv, const option_def *options,
                   void (*print_help)(void))
 {
+    if (visitor != NULL) {
+        visitor(options, print_help);
+        return EXIT_DONE;
+    }
     int first = 1; /* of the arguments found so far */
     bool is_over = false;
     for (int at = 1; at < argc && !is_over; at++) {

@@ -28,7 +28,8 @@ typedef struct option_def {
     int64_t low, high;
     /* Reads the text into `out`; false when it is none of `choices`. */
     bool (*take)(const char *text, void *out);
-    /* For the message: "use live, thesis or both"; of a file its endings: ".yml .yaml". */
+    /* For the message, and in the form "use live, thesis or both" also for a shell's completion; of
+     * a file its endings: ".yml .yaml". */
     const char *choices;
     /* Words of which the text has one, or several with commas between: the message lists them, or
      * tells the nearest one. NULL = `choices` says it all; ends with NULL. */
@@ -41,6 +42,11 @@ typedef struct option_def {
  * wrong. */
 int options_parse(const char *command, int argc, char **argv, const option_def *options,
                   void (*print_help)(void));
+
+/* While set, options_parse hands its table and its help to the function instead of reading argv,
+ * and returns EXIT_DONE. NULL ends it. */
+typedef void (*options_visit_fn)(const option_def *options, void (*print_help)(void));
+void options_visit(options_visit_fn visit);
 
 /* Reads an rlf_orbit: degrees, and the distance. `choices` of an option that does. */
 #define OPTIONS_ORBIT "use YAW,PITCH or YAW,PITCH,ZOOM: within 360, 85 degrees, 0.1 to 10"

@@ -1,5 +1,6 @@
 # Installs libraries, headers, the command and the scenes, with a CMake package (relief::relief,
-# relief::io, relief::gl, relief::window) and pkg-config files (relief, relief_io, ...).
+# relief::sim, relief::io, relief::gl, relief::window, each also with _static or _shared) and pkg-config
+# files (relief, relief_io, ...).
 include(CMakePackageConfigHelpers)
 
 set(relief_package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/relief)
@@ -9,10 +10,10 @@ string(REGEX REPLACE "/$" "" relief_pc_to_prefix "${relief_pc_to_prefix}")
 
 # relief_pkg_config(NAME OWN REQUIRES LIBS DESCRIPTION): writes NAME.pc. OWN are libraries of Relief,
 # REQUIRES those of the system. A static library hands its own needs on to whoever links it; a shared
-# one keeps them to itself.
+# one keeps them to itself, and to `pkg-config --static`.
 function(relief_pkg_config name own requires libs description)
   set(private "")
-  if(BUILD_SHARED_LIBS)
+  if(NOT RELIEF_LIBRARIES STREQUAL "static")
     set(private ".private")
   endif()
   set(base "")
@@ -46,10 +47,15 @@ function(relief_pkg_config name own requires libs description)
 endfunction()
 
 # relief_packages(TARGET OUT_FINDS OUT_MODULES): the system packages of a target, as lines for the
-# CMake package and as a list for pkg-config.
+# CMake package and as a list for pkg-config. Only a static library needs them: where there is a
+# shared one, too, whoever links that does without.
 function(relief_packages target out_finds out_modules)
   set(finds "")
   set(modules "")
+  set(is_needed QUIET)
+  if(RELIEF_LIBRARIES STREQUAL "static")
+    set(is_needed REQUIRED)
+  endif()
   get_target_property(names ${target} RELIEF_PACKAGES)
   if(names)
     foreach(name IN LISTS names)
@@ -57,7 +63,7 @@ function(relief_packages target out_finds out_modules)
       string(REPLACE ">=" " >= " needs "${package}")
       list(APPEND modules ${needs})
       list(JOIN package " " words)
-      string(APPEND finds "  pkg_check_modules(${name} REQUIRED IMPORTED_TARGET GLOBAL ${words})\n")
+      string(APPEND finds "  pkg_check_modules(${name} ${is_needed} IMPORTED_TARGET GLOBAL ${words})\n")
     endforeach()
   endif()
   list(JOIN modules " " modules)
@@ -67,23 +73,25 @@ function(relief_packages target out_finds out_modules)
 endfunction()
 
 # ---- libraries and headers -----------------------------------------------------------------------
-# relief_install(TARGET NAME): relief::NAME with its part of the CMake package.
-function(relief_install target name)
-  install(TARGETS ${target}_public EXPORT ${target}_targets
+# relief_install(TARGET): its libraries with their part of the CMake package.
+function(relief_install target)
+  list(TRANSFORM relief_kinds PREPEND ${target}_ OUTPUT_VARIABLE libraries)
+  install(TARGETS ${libraries} EXPORT ${target}_targets
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(EXPORT ${target}_targets NAMESPACE relief:: FILE ${target}_targets.cmake
           DESTINATION ${relief_package_folder})
 endfunction()
 
+list(GET relief_kinds 0 relief_kind)
 set(relief_absent_headers io.h gl.h window.h)
-relief_install(relief relief)
+relief_install(relief)
 relief_pkg_config(relief "" "" "-lm -lpthread" "Virtual things touch what a depth camera sees: the core")
 foreach(component sim io gl window)
   if(NOT TARGET relief_${component})
     continue()
   endif()
   list(REMOVE_ITEM relief_absent_headers ${component}.h)
-  relief_install(relief_${component} ${component})
+  relief_install(relief_${component})
   relief_packages(relief_${component} relief_finds modules)
   # The libraries of Relief that it needs beside the core.
   set(own "")
@@ -113,20 +121,23 @@ foreach(header IN LISTS relief_absent_headers)
 endforeach()
 install(DIRECTORY include/relief DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${exclude})
 
-# ---- the CMake package ---------------------------------------------------------------------------
-configure_package_config_file(cmake/reliefConfig.cmake.in ${PROJECT_BINARY_DIR}/reliefConfig.cmake
+# ---- the CMake package: named so that find_package(relief) and find_package(Relief) find it ---------
+configure_package_config_file(cmake/relief-config.cmake.in ${PROJECT_BINARY_DIR}/relief-config.cmake
                               INSTALL_DESTINATION ${relief_package_folder}
                               NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/reliefConfigVersion.cmake
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/relief-config-version.cmake
                                  COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/reliefConfig.cmake
-              ${PROJECT_BINARY_DIR}/reliefConfigVersion.cmake
+install(FILES ${PROJECT_BINARY_DIR}/relief-config.cmake
+              ${PROJECT_BINARY_DIR}/relief-config-version.cmake
         DESTINATION ${relief_package_folder})
 
 # ---- the command ---------------------------------------------------------------------------------
 if(TARGET relief_app)
-  set_target_properties(relief_app PROPERTIES
-                        INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR};$ORIGIN/../${CMAKE_INSTALL_LIBDIR}/relief")
+  set(rpath "$ORIGIN/../${CMAKE_INSTALL_LIBDIR};$ORIGIN/../${CMAKE_INSTALL_LIBDIR}/relief")
+  if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+    set(rpath ${CMAKE_INSTALL_FULL_LIBDIR}/relief)
+  endif()
+  set_target_properties(relief_app PROPERTIES INSTALL_RPATH "${rpath}")
   install(TARGETS relief_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(DIRECTORY scenes clips DESTINATION ${CMAKE_INSTALL_DATADIR}/relief)
 endif()

@@ -115,6 +115,24 @@ if(PROJECT_VERSION_MAJOR EQUAL 0)
   set(relief_soversion 0.${PROJECT_VERSION_MINOR})
 endif()
 
+# The kinds of library that RELIEF_LIBRARIES asks for; the first one is what relief::NAME means. An
+# installer gets both; a project that builds Relief within itself what BUILD_SHARED_LIBS says. With a
+# sanitizer every program must have it, too, so there the archive is enough.
+set(default static)
+if(BUILD_SHARED_LIBS)
+  set(default shared)
+elseif(PROJECT_IS_TOP_LEVEL AND NOT RELIEF_SANITIZE AND NOT DEFINED BUILD_SHARED_LIBS)
+  set(default both)
+endif()
+set(RELIEF_LIBRARIES ${default} CACHE STRING "Libraries for users: static, shared or both")
+set_property(CACHE RELIEF_LIBRARIES PROPERTY STRINGS static shared both)
+set(relief_kinds ${RELIEF_LIBRARIES})
+if(RELIEF_LIBRARIES STREQUAL "both")
+  set(relief_kinds shared static)
+elseif(NOT RELIEF_LIBRARIES MATCHES "^(static|shared)$")
+  message(FATAL_ERROR "RELIEF_LIBRARIES is '${RELIEF_LIBRARIES}': use static, shared or both")
+endif()
+
 # relief_one_object(TARGET OUT): the objects of a static library as one, in which only what RLF_API
 # marks is global. A user's program may then define any name without rlf_. Functions that exist once
 # per instruction set are named here: gcc shows them whatever the visibility says.
@@ -131,32 +149,51 @@ function(relief_one_object target out)
   set(${out} ${object} PARENT_SCOPE)
 endfunction()
 
-# relief_publish(TARGET NAME): makes relief::NAME, which users link and which is installed, of the
-# static library TARGET: a shared library, or an archive of one object.
-function(relief_publish target name)
-  set(public ${target}_public)
-  relief_one_object(${target} object)
-  add_library(${public} ${object}) # shared or static: BUILD_SHARED_LIBS
-  if(BUILD_SHARED_LIBS)
-    target_link_options(${public} PRIVATE LINKER:-Bsymbolic-functions)
-  endif()
-  add_library(relief::${name} ALIAS ${public})
-  set_target_properties(${public} PROPERTIES LINKER_LANGUAGE C EXPORT_NAME ${name}
+# Libraries find each other where they are installed together; under /usr the loader looks by itself.
+set(relief_rpath "$ORIGIN")
+if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+  set(relief_rpath "")
+endif()
+
+# relief_library(TARGET NAME KIND OBJECT): relief::NAME_static or relief::NAME_shared of one object.
+function(relief_library target name kind object)
+  set(library ${target}_${kind})
+  string(TOUPPER ${kind} type)
+  add_library(${library} ${type} ${object})
+  add_dependencies(${library} ${target}_object)
+  add_library(relief::${name}_${kind} ALIAS ${library})
+  set_target_properties(${library} PROPERTIES LINKER_LANGUAGE C EXPORT_NAME ${name}_${kind}
                         OUTPUT_NAME ${target} VERSION ${PROJECT_VERSION}
-                        SOVERSION ${relief_soversion} INSTALL_RPATH "$ORIGIN")
-  set_target_properties(${target} PROPERTIES OUTPUT_NAME ${target}_inside)
-  target_include_directories(${public} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+                        SOVERSION ${relief_soversion} INSTALL_RPATH "${relief_rpath}")
+  if(kind STREQUAL "shared")
+    target_link_options(${library} PRIVATE LINKER:-Bsymbolic-functions LINKER:-z,defs)
+  endif()
+  target_include_directories(${library} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   get_target_property(definitions ${target} INTERFACE_COMPILE_DEFINITIONS)
   if(definitions)
-    target_compile_definitions(${public} INTERFACE ${definitions})
+    target_compile_definitions(${library} INTERFACE ${definitions})
   endif()
-  get_target_property(libraries ${target} LINK_LIBRARIES)
-  foreach(library IN LISTS libraries)
-    if(library MATCHES "^relief(_gl|_io|_sim)?$")
-      target_link_libraries(${public} PUBLIC ${library}_public)
+  get_target_property(needed ${target} LINK_LIBRARIES)
+  foreach(item IN LISTS needed)
+    if(item MATCHES "^relief(_gl|_io|_sim)?$")
+      target_link_libraries(${library} PUBLIC ${item}_${kind})
     else()
-      target_link_libraries(${public} PRIVATE ${library})
+      target_link_libraries(${library} PRIVATE ${item})
     endif()
   endforeach()
+endfunction()
+
+# relief_publish(TARGET NAME): makes what users link and what is installed of the static library
+# TARGET, compiled once: relief::NAME_shared, relief::NAME_static, or both, as RELIEF_LIBRARIES
+# says. relief::NAME is the shared one where it is made.
+function(relief_publish target name)
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME ${target}_inside)
+  relief_one_object(${target} object)
+  add_custom_target(${target}_object DEPENDS ${object}) # or make would run its command twice at once
+  foreach(kind IN LISTS relief_kinds)
+    relief_library(${target} ${name} ${kind} ${object})
+  endforeach()
+  list(GET relief_kinds 0 kind)
+  add_library(relief::${name} ALIAS ${target}_${kind})
 endfunction()

@@ -59,6 +59,10 @@ typedef enum rlf_result {
     RLF_ERROR_DEVICE = -7       /* a camera or graphics device failed */
 } rlf_result;
 
+/* Version of the library that runs, e.g. "0.1.0"; its patch may be later than that of the headers.
+ * Never NULL. Thread-safety: safe. */
+RLF_API const char *rlf_version(void);
+
 /* Name of a result, e.g. "RLF_ERROR_IO". Never NULL. Thread-safety: safe. */
 RLF_API const char *rlf_result_name(rlf_result result);
 

@@ -10,6 +10,26 @@ if(TARGET relief_app)
   set_tests_properties(app.live PROPERTIES LABELS app TIMEOUT 600)
 endif()
 
+# What shells offer; and the pages of the manual.
+if(TARGET relief_app)
+  foreach(shell bash zsh fish)
+    add_test(NAME app.completion_${shell}
+             COMMAND ${CMAKE_CURRENT_LIST_DIR}/test_completion.sh $<TARGET_FILE:relief_app>
+                     ${PROJECT_SOURCE_DIR}/app/completion
+                     ${CMAKE_CURRENT_BINARY_DIR}/app_completion_${shell} ${shell})
+    set_tests_properties(app.completion_${shell} PROPERTIES LABELS app SKIP_RETURN_CODE 77 TIMEOUT 600)
+  endforeach()
+endif()
+add_test(NAME app.desktop COMMAND ${CMAKE_CURRENT_LIST_DIR}/test_desktop.sh
+         ${PROJECT_SOURCE_DIR}/app/desktop)
+set_tests_properties(app.desktop PROPERTIES LABELS app SKIP_RETURN_CODE 77 TIMEOUT 60)
+if(TARGET relief_man)
+  add_test(NAME app.man
+           COMMAND ${CMAKE_CURRENT_LIST_DIR}/test_man.sh $<TARGET_FILE:relief_app>
+                   ${PROJECT_BINARY_DIR}/app/man)
+  set_tests_properties(app.man PROPERTIES LABELS app SKIP_RETURN_CODE 77 TIMEOUT 600)
+endif()
+
 # Fusing as a user meets it.
 if(TARGET relief_app)
   add_test(NAME app.fuse

@@ -48,15 +48,44 @@ endif()
 
 # A sanitized library would ask the stranger's program for the same sanitizers.
 if(NOT RELIEF_SANITIZE)
-  house_check(install ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR} -DBUILD=${PROJECT_BINARY_DIR}
-              -DNM=${CMAKE_NM}
-              -DWORK=${CMAKE_CURRENT_BINARY_DIR}/install\ here -DCONSUMER=${house}/consumer
-              -DCC=${CMAKE_C_COMPILER} -DGENERATOR=${CMAKE_GENERATOR} -DCONFIG=$<CONFIG>
+  include(CheckLanguage)
+  check_language(CXX)
+  set(has_both OFF)
+  if(RELIEF_LIBRARIES STREQUAL "both")
+    set(has_both ON)
+  endif()
+  foreach(kind IN LISTS relief_kinds)
+    set(name install)
+    if(kind STREQUAL "shared")
+      set(name shared)
+    endif()
+    house_check(${name} ${CMAKE_COMMAND} -DKIND=${kind} -DHAS_BOTH=${has_both}
+                -DROOT=${PROJECT_SOURCE_DIR} -DBUILD=${PROJECT_BINARY_DIR} -DNM=${CMAKE_NM}
+                -DWORK=${CMAKE_CURRENT_BINARY_DIR}/${name}\ here -DCONSUMER=${house}/consumer
+                -DCC=${CMAKE_C_COMPILER} -DCXX=${CMAKE_CXX_COMPILER} -DGENERATOR=${CMAKE_GENERATOR}
+                -DCONFIG=$<CONFIG> -DWITH_IO=$<TARGET_EXISTS:relief_io>
+                -DWITH_GL=$<TARGET_EXISTS:relief_gl> -DWITH_WINDOW=$<TARGET_EXISTS:relief_window>
+                -DWITH_APP=$<TARGET_EXISTS:relief_app> -P ${house}/install.cmake)
+  endforeach()
+  # Each shared library has a list of its own; a new one needs its package in debian/, too.
+  house_check(deb_version grep -q "^relief (${PROJECT_VERSION})" ${PROJECT_SOURCE_DIR}/debian/changelog)
+  foreach(part relief relief_io relief_gl relief_sim relief_window)
+    if(TARGET ${part}_shared)
+      string(REPLACE "_" "-" package lib${part})
+      house_check(abi_${part} ${house}/abi.sh ${CMAKE_NM} $<TARGET_FILE:${part}_shared>
+                  ${PROJECT_SOURCE_DIR}/debian/${package}${relief_soversion}.symbols)
+    endif()
+  endforeach()
+  house_check(abi_rejects ${house}/abi_rejects.sh ${house}/abi.sh ${CMAKE_CURRENT_BINARY_DIR}/abi
+              ${CMAKE_C_COMPILER} ${CMAKE_NM})
+  house_check(embedded ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR}
+              -DWORK=${CMAKE_CURRENT_BINARY_DIR}/embedded -DCC=${CMAKE_C_COMPILER}
               -DWITH_IO=$<TARGET_EXISTS:relief_io> -DWITH_GL=$<TARGET_EXISTS:relief_gl>
-              -DWITH_APP=$<TARGET_EXISTS:relief_app> -P ${house}/install.cmake)
-  house_check(shared ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR} -DNM=${CMAKE_NM}
-              -DWORK=${CMAKE_CURRENT_BINARY_DIR}/shared -DCONSUMER=${house}/consumer
-              -DCC=${CMAKE_C_COMPILER} -DGENERATOR=${CMAKE_GENERATOR}
-              -DWITH_IO=$<TARGET_EXISTS:relief_io> -DWITH_GL=$<TARGET_EXISTS:relief_gl>
-              -DWITH_APP=NO -P ${house}/shared.cmake)
+              -P ${house}/embedded.cmake)
+  add_test(NAME golden.other_compiler
+           COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR} -DCC=${CMAKE_C_COMPILER}
+                   -DWORK=${CMAKE_CURRENT_BINARY_DIR}/other_compiler
+                   -P ${house}/../golden/other_compiler.cmake)
+  set_tests_properties(golden.other_compiler PROPERTIES LABELS golden TIMEOUT 1800
+                       SKIP_REGULAR_EXPRESSION "other_compiler: SKIPPED")
 endif()

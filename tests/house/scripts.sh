@@ -12,13 +12,13 @@ for script in "$root"/script/* "$root"/.ci/run "$root"/tests/house/*.sh; do
         exit 1
     }
 done
-for name in bootstrap demo docs test bench peers report format silhouettes thresholds sentences figures; do
+for name in bootstrap demo deb docs bare test bench peers report format lines silhouettes thresholds sentences figures; do
     "$root/script/$name" --help | grep -q '^usage: script/'"$name" || {
         echo "script/$name --help: no usage line" >&2
         exit 1
     }
 done
-for name in bootstrap bench docs peers report format silhouettes thresholds sentences figures; do
+for name in bootstrap deb bare bench docs peers report format lines silhouettes thresholds sentences figures; do
     status=0
     "$root/script/$name" --no-such-option >/dev/null 2>&1 || status=$?
     if [ "$status" -ne 2 ]; then
@@ -30,12 +30,14 @@ done
 "$root/script/bootstrap" --list | grep -qx libglfw3-dev
 "$root/script/bootstrap" --list | grep -qx libimgui-dev # the panel is in the default window
 "$root/script/bootstrap" --small --list | grep -qx libpng-dev
+"$root/script/bootstrap" --packages --list | grep -qx debhelper
 if "$root/script/bootstrap" --small --list | grep -q 'gl\|av\|assimp\|cmocka\|++'; then
     echo "scripts: bootstrap --small installs what a window, MP4, models or tests need" >&2
     exit 1
 fi
 if command -v shellcheck >/dev/null 2>&1; then
-    shellcheck "$root"/script/* "$root"/.ci/run "$root"/tests/house/*.sh
+    shellcheck "$root"/script/* "$root"/.ci/run "$root"/tests/house/*.sh "$root"/app/man/pages.sh \
+        "$root"/app/completion/relief.bash
 else
     echo "scripts: shellcheck is not here: only parsed"
 fi

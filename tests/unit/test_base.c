@@ -9,6 +9,7 @@
 #include "count_assert.h"
 #include "relief/base.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -112,6 +113,15 @@ static void tiny_jobs_in_a_row_do_not_mix(void **state)
     rlf_pool_destroy(&pool);
 }
 
+static void the_version_is_that_of_the_headers(void **state)
+{
+    (void)state;
+    char version[32];
+    snprintf(version, sizeof(version), "%d.%d.%d", RLF_VERSION_MAJOR, RLF_VERSION_MINOR,
+             RLF_VERSION_PATCH);
+    assert_string_equal(rlf_version(), version);
+}
+
 static void instruction_set_has_a_name(void **state)
 {
     (void)state;
@@ -126,6 +136,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(error_line_is_one_line),
+        cmocka_unit_test(the_version_is_that_of_the_headers),
         cmocka_unit_test(instruction_set_has_a_name),
         cmocka_unit_test(allocations_are_aligned_zeroed_and_counted),
         cmocka_unit_test(failed_assertion_is_a_safe_no_op),
