@@ -88,6 +88,28 @@ static rlf_keyframe *find_left(velocity_planes *state, int32_t label)
     return NULL;
 }
 
+/* Poses of a keyframe that has ended, as those of the one that follows it: from the pose in which
+ * that is taken. */
+static void take_over(const rlf_keyframe *left, double time_s, rlf_keyframe *key)
+{
+    const keyframe_pose *last = &left->ring[left->ring_count - 1];
+    const rlf_vec3 arm = rlf_sub(
+        key->centre, rlf_add(left->centre, rlf_vec3_make(last->x[0], last->x[1], last->x[2])));
+    const double dt = time_s - last->time_s;
+    memcpy(key->velocity, left->velocity, sizeof(key->velocity));
+    for (int32_t k = 0; k < left->ring_count; k++) {
+        double x[6];
+        for (int i = 0; i < 6; i++) {
+            x[i] = left->ring[k].x[i] - last->x[i] - left->velocity[i] * dt;
+        }
+        const rlf_vec3 turn = rlf_scale(rlf_vec3_make(x[3], x[4], x[5]), 1.0 / left->length);
+        const rlf_vec3 shift = rlf_add(rlf_vec3_make(x[0], x[1], x[2]), rlf_cross(turn, arm));
+        const double s = key->length;
+        const double now[6] = {shift.x, shift.y, shift.z, s * turn.x, s * turn.y, s * turn.z};
+        keyframe_push(key, left->ring[k].time_s, now);
+    }
+}
+
 /* Of a region as it is now, if it has none: what it takes over goes on as it moved. */
 static void take_region(rlf_reconstruct *stage, const rlf_slot *slot, const rlf_region *region)
 {
@@ -95,6 +117,7 @@ static void take_region(rlf_reconstruct *stage, const rlf_slot *slot, const rlf_
     rlf_keyframe *left = find_left(&stage->velocity, region->label);
     rlf_keyframe *key = left != NULL ? left : keyframe_find_free(&stage->velocity);
     const rlf_rect rect = {region->x0, region->y0, region->x1, region->y1};
+    const double time_s = 1e-9 * (double)slot->surface.time_ns;
     const keyframe_view view = {&stage->grid,
                                 NULL,
                                 slot->label,
@@ -106,18 +129,19 @@ static void take_region(rlf_reconstruct *stage, const rlf_slot *slot, const rlf_
     if (key == NULL || keyframe_of_region(stage, region->label) != NULL) {
         return;
     }
-    const bool is_whole = left != NULL, has_stood = is_whole && left->has_stood;
-    double velocity[6];
-    memcpy(velocity, is_whole ? left->velocity : none, sizeof(velocity));
+    const rlf_keyframe before = *key;
     if (!keyframe_take(&view, &rect, region->point_count, key)) {
         return;
     }
     key->state = KEYFRAME_MOVES;
     key->label = region->label;
-    key->is_whole = is_whole;
-    key->has_stood = has_stood;
-    memcpy(key->velocity, velocity, sizeof(velocity));
-    keyframe_push(key, 1e-9 * (double)slot->surface.time_ns, none);
+    key->is_whole = left != NULL;
+    key->has_stood = left != NULL && before.has_stood;
+    if (left != NULL) {
+        memcpy(key->spread, before.spread, sizeof(key->spread));
+        take_over(&before, time_s, key);
+    }
+    keyframe_push(key, time_s, none);
 }
 
 static void turn(const rlf_quat *q, double v[3])

@@ -187,7 +187,7 @@ static void add_rim(const keyframe_frame *frame, const placed *at, const keyfram
         return;
     }
     const double footprint = p.z / frame->grid->camera.fx, sigma = rim_sigma_px * footprint;
-    fit->rims++;
+    fit->rims += pixels < 0.0 || !is_full ? 1 : 0; /* a full window: something is close behind */
     fit->cost -= is_full ? 0.0 : squares_left(pixels / rim_sigma_px) / rims_shared;
     const double bound = slack / footprint + sigmas * rim_sigma_px;
     const bool agrees = !is_full && pixels <= bound && pixels >= -bound;

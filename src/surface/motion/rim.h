@@ -18,8 +18,8 @@ typedef struct rim_window {
     float x, y; /* sums of their steps from the middle */
 } rim_window;
 
-/* Of the window about pixel (x, y), for a thing with normal n at p. False out of view, or where
- * something nearer is in it. */
+/* Of the window about pixel (x, y), for a thing with normal n at p. False out of view, where
+ * something nearer is in it, or something so close behind the thing that it may be of it. */
 bool rim_look(const image_grid *grid, const float *depth, const rlf_kernel_noise *noise, rlf_vec3 p,
               rlf_vec3 n, int32_t x, int32_t y, rim_window *out);
 
