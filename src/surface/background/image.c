@@ -239,9 +239,8 @@ static void begin_draft(rlf_reconstruct *stage)
 static int32_t need_of(const rlf_background *background, int32_t tile)
 {
     bool is_made = background->version[tile] == background->next_version;
-    return is_made && !background->depart.is_urgent
-               ? 0
-               : 2 * background->changes[tile] + background->is_better[tile];
+    const int32_t need = 2 * background->changes[tile] + background->is_better[tile];
+    return is_made && !background->depart.is_urgent ? 0 : need;
 }
 
 /* The tile that needs it most; -1 = none. */

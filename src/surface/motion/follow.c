@@ -88,25 +88,19 @@ static rlf_keyframe *find_left(velocity_planes *state, int32_t label)
     return NULL;
 }
 
-/* Poses of a keyframe that has ended, as those of the one that follows it: from the pose in which
- * that is taken. */
+/* The line through the poses of a keyframe that has ended, as those of the one that follows it. */
 static void take_over(const rlf_keyframe *left, double time_s, rlf_keyframe *key)
 {
-    const keyframe_pose *last = &left->ring[left->ring_count - 1];
-    const rlf_vec3 arm = rlf_sub(
-        key->centre, rlf_add(left->centre, rlf_vec3_make(last->x[0], last->x[1], last->x[2])));
-    const double dt = time_s - last->time_s;
-    memcpy(key->velocity, left->velocity, sizeof(key->velocity));
+    memcpy(key->spread, left->spread, sizeof(key->spread));
+    for (int i = 0; i < 6; i++) {
+        key->velocity[i] = left->velocity[i] * (i < 3 ? 1.0 : key->length / left->length);
+    }
     for (int32_t k = 0; k < left->ring_count; k++) {
         double x[6];
         for (int i = 0; i < 6; i++) {
-            x[i] = left->ring[k].x[i] - last->x[i] - left->velocity[i] * dt;
+            x[i] = key->velocity[i] * (left->ring[k].time_s - time_s);
         }
-        const rlf_vec3 turn = rlf_scale(rlf_vec3_make(x[3], x[4], x[5]), 1.0 / left->length);
-        const rlf_vec3 shift = rlf_add(rlf_vec3_make(x[0], x[1], x[2]), rlf_cross(turn, arm));
-        const double s = key->length;
-        const double now[6] = {shift.x, shift.y, shift.z, s * turn.x, s * turn.y, s * turn.z};
-        keyframe_push(key, left->ring[k].time_s, now);
+        keyframe_push(key, left->ring[k].time_s, x);
     }
 }
 
@@ -138,7 +132,6 @@ static void take_region(rlf_reconstruct *stage, const rlf_slot *slot, const rlf_
     key->is_whole = left != NULL;
     key->has_stood = left != NULL && before.has_stood;
     if (left != NULL) {
-        memcpy(key->spread, before.spread, sizeof(key->spread));
         take_over(&before, time_s, key);
     }
     keyframe_push(key, time_s, none);
@@ -154,11 +147,10 @@ static void turn(const rlf_quat *q, double v[3])
 
 static void turn_float(const rlf_quat *q, float v[3])
 {
-    double to[3] = {v[0], v[1], v[2]};
-    turn(q, to);
-    for (int c = 0; c < 3; c++) {
-        v[c] = (float)to[c];
-    }
+    const rlf_vec3 to = rlf_rotate(*q, rlf_vec3_make(v[0], v[1], v[2]));
+    v[0] = (float)to.x;
+    v[1] = (float)to.y;
+    v[2] = (float)to.z;
 }
 
 static void carry(const rlf_pose *T, rlf_keyframe *key)
