@@ -2,10 +2,7 @@
 
 #include <string.h>
 
-enum {
-    MOST_NEARER = 2,        /* pixels of a window by which nothing is hidden */
-    MOST_BETWEEN = RIM_SIDE /* a line of mixed ones; more are something close behind the thing */
-};
+enum { MOST_NEARER = 2 }; /* pixels of a window by which nothing is hidden */
 
 /* Metres beyond the noise: from there on it is no longer the thing. */
 #define FULL_M 0.01f
@@ -30,7 +27,7 @@ bool rim_look(const image_grid *grid, const float *depth, const rlf_kernel_noise
     const float steep = STEEPEST * w;
     wx = wx > steep ? steep : wx < -steep ? -steep : wx;
     wy = wy > steep ? steep : wy < -steep ? -steep : wy;
-    int32_t nearer = 0, between = 0;
+    int32_t nearer = 0;
     for (int32_t v = -RIM_RADIUS; v <= RIM_RADIUS; v++) {
         const float *row = depth + i + (ptrdiff_t)v * grid->width;
         for (int32_t u = -RIM_RADIUS; u <= RIM_RADIUS; u++) {
@@ -39,11 +36,11 @@ bool rim_look(const image_grid *grid, const float *depth, const rlf_kernel_noise
             const float part = (EMPTY_M + least - beyond) / (EMPTY_M - FULL_M);
             const float is = !(d > 0.0f) || part <= 0.0f ? 0.0f : part >= 1.0f ? 1.0f : part;
             nearer += d > 0.0f && beyond < -FULL_M - least ? 1 : 0;
-            between += is > 0.0f && is < 1.0f ? 1 : 0;
+            out->between += is > 0.0f && is < 1.0f ? 1 : 0;
             out->fill += is;
             out->x += is * (float)u;
             out->y += is * (float)v;
         }
     }
-    return nearer <= MOST_NEARER && between <= MOST_BETWEEN;
+    return nearer <= MOST_NEARER;
 }

@@ -14,12 +14,13 @@ enum { RIM_RADIUS = 3, RIM_SIDE = 2 * RIM_RADIUS + 1 }; /* of a window, pixels *
 #define RIM_LEAST_PULL (0.5f * (float)(RIM_SIDE * RIM_SIDE * (RIM_RADIUS + 1)) / 4.0f)
 
 typedef struct rim_window {
-    float fill; /* pixels */
-    float x, y; /* sums of their steps from the middle */
+    float fill;      /* pixels */
+    float x, y;      /* sums of their steps from the middle */
+    int32_t between; /* pixels that may be the thing, or mixed, or something close behind it */
 } rim_window;
 
-/* Of the window about pixel (x, y), for a thing with normal n at p. False out of view, where
- * something nearer is in it, or something so close behind the thing that it may be of it. */
+/* Of the window about pixel (x, y), for a thing with normal n at p. False out of view, or where
+ * something nearer is in it. */
 bool rim_look(const image_grid *grid, const float *depth, const rlf_kernel_noise *noise, rlf_vec3 p,
               rlf_vec3 n, int32_t x, int32_t y, rim_window *out);
 
