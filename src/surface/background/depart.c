@@ -115,10 +115,27 @@ static bool is_past(const rlf_reconstruct *stage, float z, int32_t i)
     return off > rlf_background_gate(&stage->def, z) && off > own;
 }
 
+/* What was told of the pixels around i, on which side of the outline each is, is no longer so. */
+static void forget_sides(rlf_reconstruct *stage, int32_t i)
+{
+    const image_grid *grid = &stage->grid;
+    const int32_t x = i % grid->width, y = i / grid->width;
+    rlf_vote *votes = stage->normals.vote.votes;
+    for (int32_t v = y - GAP; v <= y + GAP; v++) {
+        for (int32_t u = x - GAP; u <= x + GAP; u++) {
+            if (u >= 0 && v >= 0 && u < grid->width && v < grid->height) {
+                background_image_changed(&stage->background, grid, u, v, 1);
+                if (votes != NULL) {
+                    votes[v * grid->width + u].count = 0;
+                }
+            }
+        }
+    }
+}
+
 static void leave(rlf_reconstruct *stage, rlf_slot *slot, int32_t i)
 {
     rlf_background *background = &stage->background;
-    int32_t width = stage->grid.width;
     float z = slot->depth[i];
     bool is_lost = is_past(stage, z, i);
     background->depart.left[i] = !is_lost;
@@ -127,7 +144,7 @@ static void leave(rlf_reconstruct *stage, rlf_slot *slot, int32_t i)
     background->deviation[i] = 0.0f;
     background->beyond[i] = 0;
     background->beneath[i] = 0.0f;
-    background_image_changed(background, &stage->grid, i % width, i / width, 1);
+    forget_sides(stage, i);
     slot->foreground[i] = !is_lost && z > 0.0f ? RLF_SEEN_FOREGROUND : slot->foreground[i];
 }
 

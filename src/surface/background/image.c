@@ -234,11 +234,13 @@ static void begin_draft(rlf_reconstruct *stage)
 }
 
 /* How much a tile needs to be made: its replaced pixels, or that its means are better. Once for
- * each image: where somebody walks about there is no end of changes. */
+ * each image, where somebody walks about there is no end of changes; but what has left is in none.
+ */
 static int32_t need_of(const rlf_background *background, int32_t tile)
 {
     bool is_made = background->version[tile] == background->next_version;
-    return is_made ? 0 : 2 * background->changes[tile] + background->is_better[tile];
+    const int32_t need = 2 * background->changes[tile] + background->is_better[tile];
+    return is_made && !background->depart.is_urgent ? 0 : need;
 }
 
 /* The tile that needs it most; -1 = none. */

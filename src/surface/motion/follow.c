@@ -88,6 +88,22 @@ static rlf_keyframe *find_left(velocity_planes *state, int32_t label)
     return NULL;
 }
 
+/* The line through the poses of a keyframe that has ended, as those of the one that follows it. */
+static void take_over(const rlf_keyframe *left, double time_s, rlf_keyframe *key)
+{
+    memcpy(key->spread, left->spread, sizeof(key->spread));
+    for (int i = 0; i < 6; i++) {
+        key->velocity[i] = left->velocity[i] * (i < 3 ? 1.0 : key->length / left->length);
+    }
+    for (int32_t k = 0; k < left->ring_count; k++) {
+        double x[6];
+        for (int i = 0; i < 6; i++) {
+            x[i] = key->velocity[i] * (left->ring[k].time_s - time_s);
+        }
+        keyframe_push(key, left->ring[k].time_s, x);
+    }
+}
+
 /* Of a region as it is now, if it has none: what it takes over goes on as it moved. */
 static void take_region(rlf_reconstruct *stage, const rlf_slot *slot, const rlf_region *region)
 {
@@ -95,6 +111,7 @@ static void take_region(rlf_reconstruct *stage, const rlf_slot *slot, const rlf_
     rlf_keyframe *left = find_left(&stage->velocity, region->label);
     rlf_keyframe *key = left != NULL ? left : keyframe_find_free(&stage->velocity);
     const rlf_rect rect = {region->x0, region->y0, region->x1, region->y1};
+    const double time_s = 1e-9 * (double)slot->surface.time_ns;
     const keyframe_view view = {&stage->grid,
                                 NULL,
                                 slot->label,
@@ -106,18 +123,18 @@ static void take_region(rlf_reconstruct *stage, const rlf_slot *slot, const rlf_
     if (key == NULL || keyframe_of_region(stage, region->label) != NULL) {
         return;
     }
-    const bool is_whole = left != NULL, has_stood = is_whole && left->has_stood;
-    double velocity[6];
-    memcpy(velocity, is_whole ? left->velocity : none, sizeof(velocity));
+    const rlf_keyframe before = *key;
     if (!keyframe_take(&view, &rect, region->point_count, key)) {
         return;
     }
     key->state = KEYFRAME_MOVES;
     key->label = region->label;
-    key->is_whole = is_whole;
-    key->has_stood = has_stood;
-    memcpy(key->velocity, velocity, sizeof(velocity));
-    keyframe_push(key, 1e-9 * (double)slot->surface.time_ns, none);
+    key->is_whole = left != NULL;
+    key->has_stood = left != NULL && before.has_stood;
+    if (left != NULL) {
+        take_over(&before, time_s, key);
+    }
+    keyframe_push(key, time_s, none);
 }
 
 static void turn(const rlf_quat *q, double v[3])
@@ -130,11 +147,10 @@ static void turn(const rlf_quat *q, double v[3])
 
 static void turn_float(const rlf_quat *q, float v[3])
 {
-    double to[3] = {v[0], v[1], v[2]};
-    turn(q, to);
-    for (int c = 0; c < 3; c++) {
-        v[c] = (float)to[c];
-    }
+    const rlf_vec3 to = rlf_rotate(*q, rlf_vec3_make(v[0], v[1], v[2]));
+    v[0] = (float)to.x;
+    v[1] = (float)to.y;
+    v[2] = (float)to.z;
 }
 
 static void carry(const rlf_pose *T, rlf_keyframe *key)

@@ -114,6 +114,7 @@ static void measure_rim(const keyframe_view *view, int32_t x, int32_t y, rlf_key
     store(rim->n, n);
     store(rim->out, rlf_normalize(rlf_mad(m, ray, -rlf_dot(m, ray))));
     rim->fill = window.fill;
+    rim->between = window.between;
 }
 
 /* Where a line of pixels, from (x, y) on, enters and leaves the thing. */

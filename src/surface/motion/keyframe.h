@@ -25,7 +25,8 @@ typedef struct keyframe_point {
 typedef struct keyframe_rim {
     float p[3], n[3]; /* from the centre, of the pixel that is the window's middle */
     float out[3];     /* unit, out of the thing, square to the ray */
-    float fill;       /* of a window about it at rest: pixels that show the thing */
+    float fill;       /* of a window about it at rest: pixels that show the thing, ... */
+    int32_t between;  /* ... and that may */
 } keyframe_rim;
 
 typedef enum keyframe_state { KEYFRAME_NONE = 0, KEYFRAME_RESTS, KEYFRAME_MOVES } keyframe_state;

@@ -146,7 +146,8 @@ static double per_step(double x, double y)
     return rlf_max(size_of(x), size_of(y));
 }
 
-/* Pixels that the outline is seen farther out than the rim says; false out of view or hidden. */
+/* Pixels that the outline is seen farther out than the rim says; false out of view or hidden, or
+ * where something has come close behind the thing: more than a line of pixels may be of either. */
 static bool rim_off(const keyframe_frame *frame, const placed *at, const keyframe_rim *rim,
                     rlf_vec3 p, rlf_vec3 out, double *pixels, bool *is_full)
 {
@@ -155,7 +156,8 @@ static bool rim_off(const keyframe_frame *frame, const placed *at, const keyfram
     rim_window window;
     *is_full = false;
     if (!pixel_of(frame->grid, p, &u, &v, &x, &y) ||
-        !rim_look(frame->grid, frame->depth, &frame->noise, p, turned(at, rim->n), x, y, &window)) {
+        !rim_look(frame->grid, frame->depth, &frame->noise, p, turned(at, rim->n), x, y, &window) ||
+        window.between > rim->between + RIM_SIDE) {
         return false;
     }
     double ox = out.x - out.z * p.x / p.z, oy = out.y - out.z * p.y / p.z;
@@ -187,7 +189,7 @@ static void add_rim(const keyframe_frame *frame, const placed *at, const keyfram
         return;
     }
     const double footprint = p.z / frame->grid->camera.fx, sigma = rim_sigma_px * footprint;
-    fit->rims++;
+    fit->rims += pixels < 0.0 || !is_full ? 1 : 0; /* a full window: something is close behind */
     fit->cost -= is_full ? 0.0 : squares_left(pixels / rim_sigma_px) / rims_shared;
     const double bound = slack / footprint + sigmas * rim_sigma_px;
     const bool agrees = !is_full && pixels <= bound && pixels >= -bound;

@@ -36,6 +36,7 @@ bool rim_look(const image_grid *grid, const float *depth, const rlf_kernel_noise
             const float part = (EMPTY_M + least - beyond) / (EMPTY_M - FULL_M);
             const float is = !(d > 0.0f) || part <= 0.0f ? 0.0f : part >= 1.0f ? 1.0f : part;
             nearer += d > 0.0f && beyond < -FULL_M - least ? 1 : 0;
+            out->between += is > 0.0f && is < 1.0f ? 1 : 0;
             out->fill += is;
             out->x += is * (float)u;
             out->y += is * (float)v;

@@ -14,8 +14,9 @@ enum { RIM_RADIUS = 3, RIM_SIDE = 2 * RIM_RADIUS + 1 }; /* of a window, pixels *
 #define RIM_LEAST_PULL (0.5f * (float)(RIM_SIDE * RIM_SIDE * (RIM_RADIUS + 1)) / 4.0f)
 
 typedef struct rim_window {
-    float fill; /* pixels */
-    float x, y; /* sums of their steps from the middle */
+    float fill;      /* pixels */
+    float x, y;      /* sums of their steps from the middle */
+    int32_t between; /* pixels that may be the thing, or mixed, or something close behind it */
 } rim_window;
 
 /* Of the window about pixel (x, y), for a thing with normal n at p. False out of view, or where
