@@ -50,7 +50,6 @@ static void take_work(rlf_work *work, rlf_arena *arena, const rlf_reconstruct_de
     for (int k = 0; k < 2; k++) {
         work->vote[k] = arena_take(arena, n + 1, sizeof(int32_t));
     }
-    work->color = arena_take(arena, n, sizeof(uint32_t));
     work->links = arena_take(arena, n, 1);
     work->component = arena_take(arena, n, sizeof(int32_t));
     work->front = arena_take(arena, (size_t)grid->height, sizeof(rlf_span));

@@ -22,7 +22,6 @@ typedef struct rlf_work {
     float *raw;         /* plane: depth as it came */
     float *kept;        /* plane: as planes are fitted to it: recalled, averaged, with holes */
     uint8_t *was_seen;  /* plane: 1 where that had a depth before holes were filled */
-    uint32_t *color;    /* plane: of the frame, see segment/color.c */
     uint8_t *links;     /* plane of RLF_LINK_ bits */
     int32_t *component; /* plane */
     rlf_span *front;    /* per row: where the foreground may be; finished with the background */
@@ -64,7 +63,6 @@ struct rlf_reconstruct {
     velocity_planes velocity;
     chord_planes chords;
     rlf_work work;
-    bool has_color;      /* work.color holds the frame's */
     bool has_components; /* work.runs holds the foreground's, so many: */
     int32_t component_count;
     rlf_surface_times *times; /* borrowed; NULL = not measured */

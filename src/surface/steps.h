@@ -102,22 +102,9 @@ void rlf_runs_find(rlf_reconstruct *stage, const int32_t *number);
 /* Writes work.links from depth and (when not NULL) the members' mask, within the spans. */
 void rlf_segment_links(const rlf_reconstruct *stage, rlf_segment_method method, const float *depth,
                        const uint8_t *mask, const rlf_span *spans);
-/* Eq. 4.4: 1 where a pixel is valid and within tau of its right and lower neighbours, and when
- * asked of the two lower diagonal ones. */
-void rlf_segment_thesis_bits(const image_grid *grid, double tau, bool diagonals, const float *depth,
+/* Eq. 4.4: 1 where a pixel is valid and within tau of its right and lower neighbours. */
+void rlf_segment_thesis_bits(const image_grid *grid, double tau, const float *depth,
                              const uint8_t *mask, uint8_t *bits);
-/* ---- segment/color.c ---- */
-/* Writes work.color, when colour is wanted and the frame has it. */
-void rlf_color_sample(rlf_reconstruct *stage, const rlf_frame *frame, const float *depth);
-/* Takes the colours of the background where it is seen. */
-void rlf_color_learn(rlf_reconstruct *stage, const uint8_t *foreground);
-/* In the HSV cone; colours are those of work.color. */
-bool rlf_color_is_near(uint32_t a, uint32_t b, double tau);
-/* Takes away the links between colours that are not near. */
-void rlf_color_cut_links(const rlf_reconstruct *stage, const uint32_t *color,
-                         const rlf_span *spans);
-
-/* ---- segment/segment.c ---- */
 /* Fig. 4.12: grows labels to the left and top over valid members without a label. */
 void rlf_segment_dilate(const image_grid *grid, double tau, const float *depth, const uint8_t *mask,
                         int32_t *label);
@@ -136,7 +123,6 @@ typedef struct rlf_layer_in {
     int32_t *kept;                 /* ... and a plane that nobody else wrote meanwhile */
     const uint8_t *mask;           /* members; NULL = every valid pixel */
     const rlf_span *spans;         /* where they are; NULL = anywhere */
-    const uint32_t *color;         /* NULL = depth alone tells them apart */
     bool has_components;           /* work.runs holds them already ... */
     int32_t component_count;       /* ... and so many */
     const int32_t *previous_label; /* labels of this layer one surface ago; NULL = none */

@@ -200,7 +200,7 @@ void background_find_front(rlf_reconstruct *stage, const rlf_slot *slot)
     const rlf_span *spans = stage->work.front;
     rlf_segment_links(stage, RLF_SEGMENT_NOISE, slot->depth, slot->foreground, spans);
     stage->component_count = rlf_components_find(stage, spans);
-    stage->has_components = stage->def.foreground_segment == RLF_SEGMENT_NOISE && !stage->has_color;
+    stage->has_components = stage->def.foreground_segment == RLF_SEGMENT_NOISE;
     rlf_background_decide_unknown(stage, slot);
 }
 

@@ -112,7 +112,6 @@ void background_allocate(rlf_background *background, rlf_arena *arena,
     background->still_ms = arena_take(arena, n, sizeof(uint16_t));
     background->beneath = arena_take(arena, n, sizeof(float));
     background->standing = arena_take(arena, (size_t)grid->height, sizeof(rlf_span));
-    background->color = arena_take(arena, n, sizeof(uint32_t));
     background->hides = arena_take(arena, (size_t)grid->height, 1);
     size_t tiles = (size_t)background_image_tiles(grid);
     background->row_changes = arena_take(arena, tiles * BACKGROUND_TILE, sizeof(int32_t));

@@ -265,8 +265,7 @@ static rlf_layer_in draft_layer(const rlf_reconstruct *stage)
                        .depth = image->depth,
                        .normal = image->normal,
                        .steps_done = background->object_steps,
-                       .kept = image->label,
-                       .color = stage->has_color ? background->color : NULL};
+                       .kept = image->label};
     if (old != NULL) {
         in.previous_label = old->label;
         in.previous = old->regions;

@@ -24,7 +24,6 @@ void rlf_background_reset(rlf_background *background, const image_grid *grid)
     memset(background->still_ms, 0, n * sizeof *background->still_ms);
     memset(background->beneath, 0, n * sizeof *background->beneath);
     memset(background->standing, 0, (size_t)grid->height * sizeof *background->standing);
-    memset(background->color, 0, n * sizeof *background->color);
     memset(background->hides, 0, (size_t)grid->height);
     if (background->depart.thing != NULL) {
         memset(background->depart.thing, 0, n);

@@ -44,7 +44,6 @@ typedef struct rlf_background {
     uint16_t *still_ms;   /* ADAPTIVE: how long it has not moved */
     float *beneath;       /* ADAPTIVE: the background that an absorbed thing hides; 0 = none */
     rlf_span *standing;   /* ADAPTIVE: per row, where still_ms is not 0 */
-    uint32_t *color;      /* see segment/color.c; 0 = not seen */
     uint8_t *hides;       /* ADAPTIVE: per row, whether there is anything beneath */
     int32_t frames;
     int32_t *row_changes; /* ADAPTIVE: pixels replaced in this frame, per row and tile column */

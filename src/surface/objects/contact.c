@@ -39,9 +39,9 @@ static uint8_t cut_links(const rlf_reconstruct *stage, const rlf_layer_in *in, i
 {
     const uint8_t *links = stage->work.links;
     int32_t width = stage->grid.width, link = links[i];
-    const int32_t bits[4] = {RLF_LINK_LEFT, RLF_LINK_UP, RLF_LINK_UP_LEFT, RLF_LINK_UP_RIGHT};
-    const int32_t step[4] = {-1, -width, -width - 1, -width + 1};
-    for (int k = 0; k < 4; k++) {
+    const int32_t bits[2] = {RLF_LINK_LEFT, RLF_LINK_UP};
+    const int32_t step[2] = {-1, -width};
+    for (int k = 0; k < 2; k++) {
         if (link & bits[k]) {
             int32_t j = i + step[k];
             bool was_one = in->previous_label == NULL || in->previous_label[i] == 0 ||

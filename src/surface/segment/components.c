@@ -2,7 +2,7 @@
  * runs: He, Chao and Suzuki 2008). O(pixels), whatever their number and shape. */
 #include "surface/steps.h"
 
-#include <string.h>
+#include "kernel/kernel.h"
 
 static int32_t root_of(int32_t *parent, int32_t a)
 {
@@ -21,44 +21,18 @@ static void join(int32_t *parent, int32_t a, int32_t b)
     parent[a < b ? b : a] = a < b ? a : b;
 }
 
-/* First member at or after x; most bytes are 0 and are passed eight at a time. */
-static int32_t next_member(const uint8_t *links, int32_t x, int32_t end)
-{
-    uint64_t eight = 0;
-    while (x + 8 <= end) {
-        memcpy(&eight, links + x, sizeof eight);
-        if (eight != 0) {
-            break;
-        }
-        x += 8;
-    }
-    while (x < end && !(links[x] & RLF_LINK_MEMBER)) {
-        x++;
-    }
-    return x;
-}
-
 static int32_t find_runs(const uint8_t *links, rlf_span span, rlf_run *runs, int32_t count)
 {
-    int32_t x = next_member(links, span.x0, span.x1);
+    int32_t x = rlf_kernel_next_mark(links, span.x0, span.x1);
     while (x < span.x1) {
         int32_t begin = x++;
         while (x < span.x1 && (links[x] & RLF_LINK_LEFT) != 0) {
             x++;
         }
         runs[count++] = (rlf_run){begin, x, 0};
-        x = next_member(links, x, span.x1);
+        x = rlf_kernel_next_mark(links, x, span.x1);
     }
     return count;
-}
-
-/* Joins run r to the run of the row above that holds x; the search begins at run a. */
-static void join_above(const rlf_work *work, int32_t r, int32_t a, int32_t x)
-{
-    while (work->runs.run[a].x1 <= x) {
-        a++;
-    }
-    join(work->parent, r, a);
 }
 
 /* Joins run r to the runs above that its pixels are linked to; *above is the first that can touch
@@ -75,15 +49,8 @@ static void join_run(const rlf_work *work, const uint8_t *links, int32_t r, int3
         if (a == end) {
             break;
         }
-        int32_t link = links[x];
-        if (link & RLF_LINK_UP_LEFT) {
-            join_above(work, r, a, x - 1);
-        }
-        if (link & RLF_LINK_UP_RIGHT) {
-            join_above(work, r, a, x + 1);
-        }
         int32_t next = x + 1;
-        if (link & RLF_LINK_UP) {
+        if (links[x] & RLF_LINK_UP) {
             int32_t over = runs[a].x1 <= x ? a + 1 : a;
             join(work->parent, r, over);
             next = runs[over].x1 - 1 > next ? runs[over].x1 - 1 : next;

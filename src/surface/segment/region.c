@@ -33,9 +33,6 @@ static int32_t find_components(rlf_reconstruct *stage, const rlf_layer_in *in)
         return rlf_objects_find(stage, in);
     }
     rlf_segment_links(stage, in->method, in->depth, in->mask, in->spans);
-    if (in->color != NULL) {
-        rlf_color_cut_links(stage, in->color, in->spans);
-    }
     return rlf_components_find(stage, in->spans);
 }
 

@@ -21,7 +21,7 @@ static bool agrees(bool inside, float tau, const float *depth, const uint8_t *ma
     return !inside || (is_member(depth, mask, next) && is_near(depth[i], depth[next], tau));
 }
 
-void rlf_segment_thesis_bits(const image_grid *grid, double tau, bool diagonals, const float *depth,
+void rlf_segment_thesis_bits(const image_grid *grid, double tau, const float *depth,
                              const uint8_t *mask, uint8_t *bits)
 {
     float limit = (float)tau;
@@ -30,13 +30,8 @@ void rlf_segment_thesis_bits(const image_grid *grid, double tau, bool diagonals,
         for (int32_t x = 0; x < width; x++) {
             ptrdiff_t i = (ptrdiff_t)y * width + x;
             bool right = x + 1 < width, down = y + 1 < grid->height;
-            bool same = is_member(depth, mask, i) && agrees(right, limit, depth, mask, i, i + 1) &&
-                        agrees(down, limit, depth, mask, i, i + width);
-            if (same && diagonals) {
-                same = agrees(right && down, limit, depth, mask, i, i + width + 1) &&
-                       agrees(x > 0 && down, limit, depth, mask, i, i + width - 1);
-            }
-            bits[i] = same;
+            bits[i] = is_member(depth, mask, i) && agrees(right, limit, depth, mask, i, i + 1) &&
+                      agrees(down, limit, depth, mask, i, i + width);
         }
     }
 }
@@ -44,19 +39,14 @@ void rlf_segment_thesis_bits(const image_grid *grid, double tau, bool diagonals,
 static void thesis_links(const rlf_reconstruct *stage, const float *depth, const uint8_t *mask)
 {
     const image_grid *grid = &stage->grid;
-    bool diagonals = stage->def.segment_diagonals;
     uint8_t *bits = stage->work.bits;
-    rlf_segment_thesis_bits(grid, stage->def.segment_tau_m, diagonals, depth, mask, bits);
+    rlf_segment_thesis_bits(grid, stage->def.segment_tau_m, depth, mask, bits);
     for (int32_t y = 0; y < grid->height; y++) {
         for (int32_t x = 0; x < grid->width; x++) {
-            ptrdiff_t i = (ptrdiff_t)y * grid->width + x, up = i - grid->width;
+            ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
             int link = RLF_LINK_MEMBER;
             link |= x > 0 && bits[i - 1] ? RLF_LINK_LEFT : 0;
-            link |= y > 0 && bits[up] ? RLF_LINK_UP : 0;
-            if (diagonals && y > 0) {
-                link |= x > 0 && bits[up - 1] ? RLF_LINK_UP_LEFT : 0;
-                link |= x + 1 < grid->width && bits[up + 1] ? RLF_LINK_UP_RIGHT : 0;
-            }
+            link |= y > 0 && bits[i - grid->width] ? RLF_LINK_UP : 0;
             stage->work.links[i] = (uint8_t)(bits[i] ? link : 0);
         }
     }
@@ -101,7 +91,6 @@ void rlf_segment_links(const rlf_reconstruct *stage, rlf_segment_method method, 
     job.params.noise = step.noise;
     job.params.sigmas = DEPTH_STEP_DIFFERENCE;
     job.params.slope = DEPTH_STEP_STEEPEST * step.footprint;
-    job.params.diagonals = stage->def.segment_diagonals;
     job.params.step_m = mask != NULL ? RLF_PERSON_STEP_M : 0.0f;
     rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, noise_rows, &job);
 }
