@@ -9,6 +9,15 @@ typedef struct rlf_rect {
     int32_t x0, y0, x1, y1;
 } rlf_rect;
 
+/* Takes pixel (x, y) in; pixels come in the order of their rows. */
+static inline void rlf_rect_add(rlf_rect *r, int32_t x, int32_t y)
+{
+    r->x0 = x < r->x0 ? x : r->x0;
+    r->x1 = x + 1 > r->x1 ? x + 1 : r->x1;
+    r->y0 = y < r->y0 ? y : r->y0;
+    r->y1 = y + 1;
+}
+
 /* The planes of a grid that every step reads. */
 typedef struct image_grid {
     int32_t width, height, count;
@@ -31,6 +40,11 @@ static inline rlf_span rlf_span_unite(rlf_span a, rlf_span b)
     }
     const rlf_span both = {a.x0 < b.x0 ? a.x0 : b.x0, a.x1 > b.x1 ? a.x1 : b.x1};
     return both;
+}
+
+static inline int32_t rlf_least(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
 }
 
 /* The buffers of one published surface. */

@@ -3,7 +3,7 @@
 #include "surface/motion/keyframe.h"
 #include "surface/objects/objects.h"
 #include "surface/steps.h"
-#include "surface/thickness/static.h"
+#include "surface/thickness/thickness.h"
 
 #include "base/cookie.h"
 #include "camera/checks.h"

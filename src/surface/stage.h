@@ -7,15 +7,41 @@
 
 #include "kernel/kernel.h"
 #include "surface/background/state.h"
-#include "surface/depth/color_guide.h"
-#include "surface/depth/shadow.h"
 #include "surface/depth/state.h"
 #include "surface/motion/ego_motion.h"
 #include "surface/motion/state.h"
 #include "surface/normals/state.h"
-#include "surface/segment/state.h"
 #include "surface/thickness/state.h"
 #include "surface/thin/thin.h"
+
+/* A run of linked pixels of one row, the unit of segmentation. */
+typedef struct rlf_run {
+    int32_t x0, x1;
+    int32_t component; /* > 0, 0 = none; later the number of its region */
+} rlf_run;
+
+/* Runs in raster order; row y has first[y] <= r < first[y + 1]. */
+typedef struct rlf_runs {
+    rlf_run *run;
+    int32_t *first; /* height + 1 */
+} rlf_runs;
+
+/* A label that is in the picture or was until lately: see segment/region_track.c. */
+typedef struct rlf_track {
+    int32_t label;
+    rlf_aabb box; /* where it is expected: as large as when it was last seen whole */
+    rlf_vec3 velocity;
+    double depth;              /* of its centroid */
+    double points;             /* of it then, a little less each frame */
+    int64_t age_ns, hidden_ns; /* how long it was followed; how long it has not been seen */
+} rlf_track;
+
+typedef struct rlf_tracks {
+    rlf_track *item;
+    int32_t count, capacity;
+} rlf_tracks;
+
+void tracks_allocate(rlf_tracks *state, rlf_arena *arena, const rlf_reconstruct_def *def);
 
 /* What later steps of a frame, or those of the next one, go on with. */
 typedef struct rlf_work {
@@ -38,7 +64,6 @@ typedef struct rlf_work {
     float *zero_plane;  /* published where there is no background */
     int32_t *zero_labels;
     struct rlf_region_sum *region_sums; /* region_capacity */
-    int32_t *label_table;               /* label table of segment/region_track.c */
 } rlf_work;
 
 struct rlf_reconstruct {
@@ -85,9 +110,6 @@ void rlf_stage_add_time(rlf_reconstruct *stage, rlf_surface_step step);
 /* memory.c: allocates all buffers of a stage whose def is set; false when memory is short. */
 bool rlf_stage_allocate(rlf_reconstruct *stage);
 void rlf_stage_release(rlf_reconstruct *stage);
-
-/* grid.c */
-void image_grid_fill_rays(const image_grid *grid, float *ray_x, float *ray_y, uint8_t *has_ray);
 
 /* Rows per chunk of a parallel loop: even, and a multiple of the normal tiles. */
 enum { RLF_ROW_GRAIN = 16 };

@@ -59,8 +59,8 @@ typedef struct rlf_normals_job {
 rlf_normals_job rlf_normals_job_make(const rlf_reconstruct *stage, const float *depth,
                                      float *const out[3]);
 void rlf_normals_compute(const rlf_normals_job *job);
-void rlf_normals_faces(const rlf_normals_job *job);
-void rlf_normals_thesis(const rlf_normals_job *job);
+/* Six faces, four faces, and eq. 4.3. */
+void rlf_normals_local(const rlf_normals_job *job);
 void rlf_normals_slope(const rlf_normals_job *job);
 void rlf_normals_plane(const rlf_normals_job *job);
 /* The two halves of rlf_normals_plane: planes of what was seen, then normals of the other pixels of

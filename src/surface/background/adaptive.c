@@ -7,7 +7,6 @@
  * again. */
 #include "surface/motion/keyframe.h"
 #include "surface/steps.h"
-#include "surface/window.h"
 
 #include "kernel/kernel.h"
 

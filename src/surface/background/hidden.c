@@ -8,10 +8,8 @@
  *
  * Its depth and normal are those of the thing's pixels that the row and the column meet, the nearer
  * ones counting more. */
-#include "surface/depth/shadow.h"
 #include "surface/depth_step.h"
 #include "surface/steps.h"
-#include "surface/window.h"
 
 #include "kernel/kernel.h"
 

@@ -10,7 +10,6 @@
 #include "surface/depth_step.h"
 #include "surface/normals/face.h"
 #include "surface/steps.h"
-#include "surface/window.h"
 
 #include <string.h>
 

@@ -13,13 +13,10 @@
  * them, two components and how much wider it shows what is nearer, is estimated by least squares
  * over the edges of the last frames. Where the two do not agree on pixels that depth is sure of, as
  * when the picture is late or of something else, it is not asked: trust falls to 0. */
-#include "surface/depth/color_guide.h"
-
 #include "surface/stage.h"
 
 #include "kernel/color.h"
 #include "math/inverse.h"
-#include "surface/window.h"
 
 #include <string.h>
 

@@ -12,12 +12,9 @@
  * there (thin/thin.h). The outermost pixels, which drivers' filters leave
  * empty, go on as the two inside of them. A hole about as wide as the widest that is filled is
  * filled in some rows and not in others: what is left of it then is closed. */
-#include "surface/depth/color_guide.h"
-#include "surface/depth/shadow.h"
 #include "surface/depth/depth.h"
 #include "surface/steps.h"
 #include "surface/thin/thin.h"
-#include "surface/window.h"
 
 #include "kernel/batch.h"
 

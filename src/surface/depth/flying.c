@@ -3,7 +3,6 @@
  * off; what would be filled there instead is no truer, and the background would change with it. */
 #include "surface/depth/depth.h"
 #include "surface/steps.h"
-#include "surface/window.h"
 
 #include "kernel/kernel.h"
 

@@ -7,7 +7,6 @@
  * pixel goes back to where it was seen, and has no normal of its own. */
 #include "surface/depth/depth.h"
 #include "surface/steps.h"
-#include "surface/window.h"
 
 #include "kernel/kernel.h"
 

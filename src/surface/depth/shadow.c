@@ -5,8 +5,6 @@
  * The baseline, and the side, are read off the picture: every run without depth between a near and
  * a far end says how long its baseline would be. On the shadow's side many are about as long, and
  * their median is the sensor's; on the other side, and with a sensor that has none, few are. */
-#include "surface/depth/shadow.h"
-
 #include "surface/steps.h"
 
 #include <string.h>

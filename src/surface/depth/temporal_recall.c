@@ -9,7 +9,6 @@
 #include "surface/depth/depth.h"
 #include "surface/steps.h"
 #include "surface/thin/thin.h"
-#include "surface/window.h"
 
 #include "kernel/batch.h"
 

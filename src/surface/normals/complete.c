@@ -3,29 +3,26 @@
  *
  * What a neighbour has was seen; what it was given here is a guess. A guess that is handed on from
  * pixel to pixel in the order of the rows makes faces grow to the right and downwards. So what is
- * found is kept aside until no row reads it any more; only pixels about which nothing was seen take
- * others' guesses. */
+ * found in a band is kept aside until the band is done; only pixels about which nothing was seen
+ * take others' guesses. */
 #include "surface/steps.h"
 
 #include "kernel/kernel.h"
 
-#include <string.h>
-
 enum {
     BAND_ROWS = 16,
-    ROWS_ABOUT = 2,  /* that a pixel's neighbours are in, on each side */
-    MOST_ASIDE = 512 /* pixels of a row; of what is beyond, the next ones know */
+    MOST_ASIDE = 2048 /* pixels of a band; of what is beyond, the next ones know */
 };
 
 typedef struct found {
-    int32_t x;
+    ptrdiff_t i;
     float normal[3];
 } found;
 
-/* Normals of the last rows that are not in the image yet, by the row's number. */
+/* Normals of a band that are not in the image yet. */
 typedef struct aside {
-    found pixel[ROWS_ABOUT + 1][MOST_ASIDE];
-    int32_t count[ROWS_ABOUT + 1];
+    found pixel[MOST_ASIDE];
+    int32_t count;
 } aside;
 
 static bool is_without(const rlf_normals_job *job, ptrdiff_t i)
@@ -40,28 +37,17 @@ static void write_normal(const rlf_normals_job *job, ptrdiff_t i, const float no
     }
 }
 
-static void write_aside(const rlf_normals_job *job, int32_t y, aside *from)
-{
-    int32_t slot = y % (ROWS_ABOUT + 1);
-    for (int32_t k = 0; k < from->count[slot]; k++) {
-        const found *f = &from->pixel[slot][k];
-        write_normal(job, (ptrdiff_t)y * job->width + f->x, f->normal);
-    }
-    from->count[slot] = 0;
-}
-
 /* False when nothing was seen about the pixel. */
 static bool complete_pixel(const rlf_normals_job *job, int32_t x, int32_t y, aside *to)
 {
-    int32_t slot = y % (ROWS_ABOUT + 1);
-    found f = {.x = x};
+    found f = {.i = (ptrdiff_t)y * job->width + x};
     if (!rlf_normals_near_pixel(job, x, y, f.normal)) {
         return false;
     }
-    if (to->count[slot] < MOST_ASIDE) {
-        to->pixel[slot][to->count[slot]++] = f;
+    if (to->count < MOST_ASIDE) {
+        to->pixel[to->count++] = f;
     } else {
-        write_normal(job, (ptrdiff_t)y * job->width + x, f.normal);
+        write_normal(job, f.i, f.normal);
     }
     return true;
 }
@@ -123,13 +109,13 @@ typedef struct completion {
 static void complete_band(const rlf_normals_job *job, int32_t y0, int32_t y1)
 {
     aside kept;
-    memset(kept.count, 0, sizeof kept.count);
+    kept.count = 0;
     int32_t left = 0;
-    for (int32_t y = y0; y < y1 + ROWS_ABOUT + 1; y++) {
-        if (y - ROWS_ABOUT - 1 >= y0) {
-            write_aside(job, y - ROWS_ABOUT - 1, &kept);
-        }
-        left += y < y1 ? complete_row(job, y, &kept) : 0;
+    for (int32_t y = y0; y < y1; y++) {
+        left += complete_row(job, y, &kept);
+    }
+    for (int32_t k = 0; k < kept.count; k++) {
+        write_normal(job, kept.pixel[k].i, kept.pixel[k].normal);
     }
     for (int32_t y = y0; y < y1 && left > 0; y++) {
         complete_row(job, y, NULL);

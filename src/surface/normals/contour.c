@@ -13,7 +13,6 @@
  * Where the contour is, is seen within two pixels, and of what moves within four. */
 #include "surface/depth/depth.h"
 #include "surface/normals/contour.h"
-#include "surface/window.h"
 
 #include <string.h>
 

@@ -8,7 +8,6 @@
 #include "surface/depth_step.h"
 #include "surface/normals/face.h"
 #include "surface/steps.h"
-#include "surface/window.h"
 
 #include "kernel/kernel.h"
 

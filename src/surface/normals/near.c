@@ -4,7 +4,6 @@
  * not meet there, the one at the pixel's depth. */
 #include "surface/normals/face.h"
 #include "surface/steps.h"
-#include "surface/window.h"
 
 #include "kernel/kernel.h"
 
@@ -37,17 +36,24 @@ typedef struct near_copy {
     float depth[SIDE][LANES], normal[3][SIDE][LANES];
 } near_copy;
 
+/* What of the window about a pixel is in the image. */
+static rlf_rect window_at(const rlf_normals_job *job, int32_t x, int32_t y)
+{
+    return (rlf_rect){x > REACH ? x - REACH : 0, y > REACH ? y - REACH : 0,
+                      rlf_least(x + REACH + 1, job->width), rlf_least(y + REACH + 1, job->height)};
+}
+
 static void copy_near(const rlf_normals_job *job, int32_t x, int32_t y, near_copy *out)
 {
-    rlf_window w = rlf_window_at(job->width, job->height, x, y, REACH);
+    const rlf_rect w = window_at(job, x, y);
     memset(out, 0, sizeof *out);
-    for (int32_t dy = w.y0; dy <= w.y1; dy++) {
-        ptrdiff_t row = (ptrdiff_t)(y + dy) * job->width + x;
-        for (int32_t dx = w.x0; dx <= w.x1; dx++) {
-            int32_t v = dy + REACH, u = dx + REACH;
-            out->depth[v][u] = job->filled[row + dx];
+    for (int32_t row = w.y0; row < w.y1; row++) {
+        for (int32_t column = w.x0; column < w.x1; column++) {
+            ptrdiff_t i = (ptrdiff_t)row * job->width + column;
+            int32_t v = row - y + REACH, u = column - x + REACH;
+            out->depth[v][u] = job->filled[i];
             for (int k = 0; k < 3; k++) {
-                out->normal[k][v][u] = job->out[k][row + dx];
+                out->normal[k][v][u] = job->out[k][i];
             }
         }
     }
@@ -56,9 +62,9 @@ static void copy_near(const rlf_normals_job *job, int32_t x, int32_t y, near_cop
 /* LANES pixels of each row are in the planes: at a row's end those of the next one. */
 static bool is_inside(const rlf_normals_job *job, int32_t x, int32_t y)
 {
-    rlf_window w = rlf_window_at(job->width, job->height, x, y, REACH);
     bool has_lanes = x - REACH + LANES <= job->width || y + REACH + 1 < job->height;
-    return rlf_window_is_whole(w, REACH) && has_lanes;
+    return x >= REACH && y >= REACH && x + REACH < job->width && y + REACH < job->height &&
+           has_lanes;
 }
 
 /* Of the normals within two pixels at the same depth: x, y, z and how many, weighted. */
@@ -120,11 +126,11 @@ static ptrdiff_t nearest_face(const rlf_normals_job *job, int32_t x, int32_t y, 
 {
     ptrdiff_t i = (ptrdiff_t)y * job->width + x, best = -1;
     int32_t least = 1 + 2 * REACH * REACH;
-    rlf_window w = rlf_window_at(job->width, job->height, x, y, REACH);
-    for (int32_t dy = w.y0; dy <= w.y1; dy++) {
-        for (int32_t dx = w.x0; dx <= w.x1; dx++) {
-            ptrdiff_t k = i + (ptrdiff_t)dy * job->width + dx;
-            int32_t square = dx * dx + dy * dy;
+    const rlf_rect w = window_at(job, x, y);
+    for (int32_t row = w.y0; row < w.y1; row++) {
+        for (int32_t column = w.x0; column < w.x1; column++) {
+            ptrdiff_t k = (ptrdiff_t)row * job->width + column;
+            int32_t dx = column - x, dy = row - y, square = dx * dx + dy * dy;
             float apart = rlf_kernel_abs(job->filled[k] - job->filled[i]);
             bool near = square > 0 && square < least && apart < MOST_APART * job->filled[i];
             if (near && cosine(job, k, k) > 0.5f && (other < 0 || cosine(job, k, other) < TURNED)) {

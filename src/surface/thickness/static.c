@@ -1,8 +1,13 @@
-/* Rounds over the background's pieces. */
-#include "surface/thickness/static.h"
+/* How thick static things are: the background, piece by piece.
+ *
+ * Nobody sees the back of a chair that stands. But a round front bends, and a box shows two faces:
+ * both say where the back is. What touches along a concave crease is two things (Stein, Schoeler,
+ * Papon, Woergoetter 2014: object partitioning using local convexity): so a background falls into
+ * locally convex pieces. Flat ones say nothing about their backs. One of the others is fitted per
+ * frame, and a round over all of them is published as a whole. */
+#include "surface/thickness/thickness.h"
 
 #include "surface/steps.h"
-#include "surface/thickness/thickness.h"
 
 #include <string.h>
 
@@ -41,7 +46,7 @@ static void begin_round(rlf_reconstruct *stage, const background_image *image)
 }
 
 /* The piece's runs, as those of one region, to work.runs. */
-static void make_runs(const rlf_reconstruct *stage, const rlf_block *b, int32_t piece)
+static void make_runs(const rlf_reconstruct *stage, const rlf_rect *b, int32_t piece)
 {
     rlf_runs runs = stage->work.runs;
     int32_t count = 0;
@@ -89,7 +94,7 @@ static void fit_conics(rlf_reconstruct *stage, int32_t piece)
                            .regions = &region,
                            .foreground_region_count = 1};
     rlf_chord_job job = rlf_chord_job_make(stage, &slot, state->depth);
-    const rlf_block block = rlf_block_of(&stage->grid, &region, job.step);
+    const rlf_rect block = rlf_block_of(&stage->grid, &region, job.step);
     job.is_of_people = false;
     job.behind = NULL;
     stage->work.map[1] = 0; /* no plate */

@@ -3,7 +3,7 @@
  * One face of a box says nothing about how deep it is, but a second one does: it ends where the box
  * ends. So two faces square to each other are sought, and the box is as large along each axis as
  * what is seen of the piece. What has no face is left to the conics. */
-#include "surface/thickness/static.h"
+#include "surface/thickness/thickness.h"
 
 #include "relief/base.h"
 

@@ -1,5 +1,5 @@
 /* The background's locally convex pieces. */
-#include "surface/thickness/static.h"
+#include "surface/thickness/thickness.h"
 
 #include "surface/steps.h"
 
@@ -118,14 +118,6 @@ static void grow(rlf_reconstruct *stage, float *const normal[3])
     }
 }
 
-static void widen(rlf_rect *w, int32_t x, int32_t y)
-{
-    w->x0 = x < w->x0 ? x : w->x0;
-    w->x1 = x + 1 > w->x1 ? x + 1 : w->x1;
-    w->y0 = y < w->y0 ? y : w->y0;
-    w->y1 = y + 1;
-}
-
 /* Finds the rectangles of the pieces; those of one face, and of parts of the room, are empty. */
 static void find_windows(rlf_reconstruct *stage, float *const normal[3])
 {
@@ -141,7 +133,7 @@ static void find_windows(rlf_reconstruct *stage, float *const normal[3])
             sum[k][c] += normal[c][i];
         }
         sum[k][3] += 1.0f;
-        widen(&state->window[k], i % grid->width, i / grid->width);
+        rlf_rect_add(&state->window[k], i % grid->width, i / grid->width);
     }
     for (int32_t k = 1; k <= state->piece_count; k++) {
         const float *s = sum[k], most = flat_length * s[3];

@@ -102,7 +102,7 @@ static void write_rows(void *context, int32_t begin, int32_t end, int32_t worker
     }
 }
 
-void rlf_thickness_fit(rlf_chord_job *job, const rlf_block *block)
+void rlf_thickness_fit(rlf_chord_job *job, const rlf_rect *block)
 {
     static const int32_t directions[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
     job->x0 = block->x0;
@@ -133,17 +133,17 @@ void rlf_thickness_write(const rlf_chord_job *job)
                      &copy);
 }
 
-rlf_block rlf_block_of(const image_grid *grid, const rlf_region *region, int32_t step)
+rlf_rect rlf_block_of(const image_grid *grid, const rlf_region *region, int32_t step)
 {
     int32_t x0 = region->x0 > step ? (region->x0 - 1) / step * step : 0;
     int32_t y0 = region->y0 > step ? (region->y0 - 1) / step * step : 0;
     int32_t x1 = region->x1 + step, y1 = region->y1 + step;
-    return (rlf_block){x0, y0, x1 < grid->width ? x1 : grid->width,
-                       y1 < grid->height ? y1 : grid->height};
+    return (rlf_rect){x0, y0, x1 < grid->width ? x1 : grid->width,
+                      y1 < grid->height ? y1 : grid->height};
 }
 
 /* The block of all regions that are no plates; false when there are none. */
-static bool find_block(const rlf_chord_job *job, rlf_block *block)
+static bool find_block(const rlf_chord_job *job, rlf_rect *block)
 {
     const rlf_slot *slot = job->slot;
     rlf_region all = {.x0 = INT32_MAX, .y0 = INT32_MAX};
@@ -225,7 +225,7 @@ void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot, const float 
     clear_thickness(&stage->grid, slot);
     find_plates(stage, slot, stage->work.map);
     rlf_chord_job job = rlf_chord_job_make(stage, slot, raw);
-    rlf_block block;
+    rlf_rect block;
     if (find_block(&job, &block)) {
         rlf_thickness_fit(&job, &block);
     }

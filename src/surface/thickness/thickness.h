@@ -75,11 +75,6 @@ typedef struct rlf_solid {
     float *weight, *middle, *half;
 } rlf_solid;
 
-/* Pixels x0 <= x < x1, y0 <= y < y1. */
-typedef struct rlf_block {
-    int32_t x0, y0, x1, y1;
-} rlf_block;
-
 /* Lines lie `step` pixels apart, and cross at knots, the pixels whose column and row are multiples
  * of it: thickness is smooth, its ends are as sharp as pixels. */
 typedef struct rlf_chord_job {
@@ -122,9 +117,9 @@ typedef struct rlf_line {
  */
 rlf_chord_job rlf_chord_job_make(rlf_reconstruct *stage, const rlf_slot *slot, const float *raw);
 /* The region's pixels and the knots around. */
-rlf_block rlf_block_of(const image_grid *grid, const rlf_region *region, int32_t step);
+rlf_rect rlf_block_of(const image_grid *grid, const rlf_region *region, int32_t step);
 /* Fits what is in the block, and writes the thickness of all runs. */
-void rlf_thickness_fit(rlf_chord_job *job, const rlf_block *block);
+void rlf_thickness_fit(rlf_chord_job *job, const rlf_rect *block);
 void rlf_thickness_write(const rlf_chord_job *job);
 
 /* ---- thickness/knots.c ---- */
@@ -157,5 +152,39 @@ rlf_conic rlf_chord_solve(const rlf_chord *chord, const rlf_chord_moments *momen
 rlf_chord_middle rlf_chord_middle_seen(const rlf_chord *chord);
 /* Adds the solid of the conic to the knots of the chord. */
 void rlf_chord_paint(const rlf_chord_job *job, const rlf_line *line, const rlf_chord *chord);
+
+/* ---- thickness/static.c ---- */
+/* One step of a round, if there is anything to do; after the frame's own thickness. */
+void static_advance(rlf_reconstruct *stage);
+/* The thickness of the newest image, metres along z, 0 = not known; NULL when it is not wanted or
+ * there is no image. */
+const float *static_newest(const rlf_reconstruct *stage);
+void static_reset(static_thickness *state);
+
+/* ---- thickness/static_pieces.c ---- */
+/* One step, from 0, of finding the pieces of state->depth, whose normals are given; true when it
+ * was the last. */
+bool static_find_pieces(rlf_reconstruct *stage, float *const normal[3], int32_t step);
+
+/* ---- thickness/static_box.c ---- */
+typedef enum static_shape {
+    STATIC_UNKNOWN = 0, /* one face, or no convex thing */
+    STATIC_BOX,
+    STATIC_ROUND /* no part of it is flat */
+} static_shape;
+
+/* axis[k] . p is from end[k][0] to end[k][1]; the first two axes are normals of faces that are
+ * seen. An open end is cut by the border of the image: it may go on. Camera frame, metres. */
+typedef struct static_box {
+    rlf_vec3 axis[3];
+    double end[3][2];
+    bool is_open[3][2];
+} static_box;
+
+/* What the piece of state->depth is like; *out is written where it is a box. */
+static_shape static_find_shape(const rlf_reconstruct *stage, float *const normal[3], int32_t piece,
+                               static_box *out);
+/* Depth at which the ray (x, y, 1) leaves the box that it has entered. */
+double static_box_exit(const static_box *box, rlf_vec3 ray);
 
 #endif

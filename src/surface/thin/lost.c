@@ -3,7 +3,6 @@
  * both sides, and would be filled with that. Where something was seen that must be there now, it
  * is that, in the middle of the gap: what is seen beyond it ends it at once. */
 #include "surface/thin/slab.h"
-#include "surface/window.h"
 
 #include "kernel/batch.h"
 #include "kernel/flow.h"
