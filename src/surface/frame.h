@@ -27,6 +27,18 @@ typedef struct image_grid {
     const uint8_t *has_ray;
 } image_grid;
 
+/* The point that pixel i shows, and a vector of three planes there. */
+static inline rlf_vec3 image_grid_point(const image_grid *grid, const float *depth, ptrdiff_t i)
+{
+    double z = depth[i];
+    return rlf_vec3_make(z * grid->ray_x[i], z * grid->ray_y[i], z);
+}
+
+static inline rlf_vec3 image_grid_vector(float *const plane[3], ptrdiff_t i)
+{
+    return rlf_vec3_make(plane[0][i], plane[1][i], plane[2][i]);
+}
+
 /* Pixels x0 <= x < x1 of one row. */
 typedef struct rlf_span {
     int32_t x0, x1;

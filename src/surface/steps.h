@@ -147,6 +147,8 @@ void rlf_layer_segment(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer
  * that have none around them stay as they are. */
 void rlf_region_adopt(rlf_reconstruct *stage, const float *depth, rlf_layer_out *out);
 
+/* The region has a run of row y, too. */
+void rlf_region_grow(rlf_region *region, const rlf_run *run, int32_t y);
 /* Writes the regions' labels where the runs are. */
 void rlf_region_write_labels(const rlf_reconstruct *stage, const rlf_layer_out *out,
                              int32_t *label);
@@ -210,6 +212,10 @@ void rlf_background_cover(rlf_reconstruct *stage, const float *kept, const rlf_s
                           bool is_learning);
 /* How far from z counts as another depth, metres. */
 float rlf_background_gate(const rlf_reconstruct_def *def, float z);
+/* The model of pixel i is z from now on, as if so many samples had shown it. */
+void background_put(rlf_reconstruct *stage, int32_t i, float z, uint8_t weight);
+/* Nothing is in front. */
+void background_clear_front(const rlf_reconstruct *stage, const rlf_slot *slot);
 /* Where the first and the last foreground pixel of a row are. */
 rlf_span rlf_background_span(const uint8_t *foreground, int32_t width);
 void rlf_background_reset(rlf_background *background, const image_grid *grid);

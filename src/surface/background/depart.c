@@ -110,16 +110,11 @@ static bool is_past(const rlf_reconstruct *stage, float z, int32_t i)
 static void leave(rlf_reconstruct *stage, rlf_slot *slot, int32_t i)
 {
     rlf_background *background = &stage->background;
-    int32_t width = stage->grid.width;
     float z = slot->depth[i];
     bool is_lost = is_past(stage, z, i);
     background->depart.left[i] = !is_lost;
-    background->mean[i] = z > 0.0f ? z : background->mean[i];
-    background->weight[i] = is_lost ? 1 : RLF_LEFT_WEIGHT;
-    background->deviation[i] = 0.0f;
-    background->beyond[i] = 0;
     background->beneath[i] = 0.0f;
-    background_image_changed(background, &stage->grid, i % width, i / width, 1);
+    background_put(stage, i, z > 0.0f ? z : background->mean[i], is_lost ? 1 : RLF_LEFT_WEIGHT);
     slot->foreground[i] = !is_lost && z > 0.0f ? RLF_SEEN_FOREGROUND : slot->foreground[i];
 }
 

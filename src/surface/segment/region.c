@@ -186,19 +186,13 @@ static int32_t region_around(const rlf_layer_out *out, rlf_vec3 p)
     return 0;
 }
 
-static void grow(rlf_region *region, const rlf_run *run, int32_t y)
+void rlf_region_grow(rlf_region *region, const rlf_run *run, int32_t y)
 {
     region->point_count += run->x1 - run->x0;
     region->x0 = run->x0 < region->x0 ? run->x0 : region->x0;
     region->x1 = run->x1 > region->x1 ? run->x1 : region->x1;
     region->y0 = y < region->y0 ? y : region->y0;
     region->y1 = y + 1 > region->y1 ? y + 1 : region->y1;
-}
-
-static rlf_vec3 point_at(const image_grid *grid, const float *depth, int32_t i)
-{
-    double z = depth[i];
-    return rlf_vec3_make(z * grid->ray_x[i], z * grid->ray_y[i], z);
 }
 
 /* map[c] of the pieces: the region that an end of one of their runs is close to, 0 = none. */
@@ -212,9 +206,9 @@ static void find_homes(const rlf_reconstruct *stage, const float *depth, const r
             if (run->component >= 0 || work->map[-run->component] > 0) {
                 continue;
             }
-            int32_t home = region_around(out, point_at(&stage->grid, depth, row + run->x0));
+            int32_t home = region_around(out, image_grid_point(&stage->grid, depth, row + run->x0));
             if (home == 0) {
-                home = region_around(out, point_at(&stage->grid, depth, row + run->x1 - 1));
+                home = region_around(out, image_grid_point(&stage->grid, depth, row + run->x1 - 1));
             }
             work->map[-run->component] = home;
         }
@@ -231,7 +225,7 @@ void rlf_region_adopt(rlf_reconstruct *stage, const float *depth, rlf_layer_out 
             int32_t home = run->component < 0 ? work->map[-run->component] : 0;
             if (home > 0) {
                 run->component = home;
-                grow(&out->regions[home - 1], run, y);
+                rlf_region_grow(&out->regions[home - 1], run, y);
             }
         }
     }

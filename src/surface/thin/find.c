@@ -44,17 +44,6 @@ typedef struct patch {
     double rms;
 } patch;
 
-static rlf_vec3 point_at(const image_grid *grid, const rlf_slot *slot, ptrdiff_t i)
-{
-    double z = slot->depth[i];
-    return rlf_vec3_make(z * grid->ray_x[i], z * grid->ray_y[i], z);
-}
-
-static rlf_vec3 normal_at(const rlf_slot *slot, ptrdiff_t i)
-{
-    return rlf_vec3_make(slot->normal[0][i], slot->normal[1][i], slot->normal[2][i]);
-}
-
 static bool is_seed(const image_grid *grid, const rlf_slot *slot, int32_t label, int32_t x,
                     int32_t y)
 {
@@ -64,10 +53,10 @@ static bool is_seed(const image_grid *grid, const rlf_slot *slot, int32_t label,
         slot->label[i] != label || slot->reason[i] != RLF_REASON_OK) {
         return false;
     }
-    rlf_vec3 n = normal_at(slot, i);
+    rlf_vec3 n = image_grid_vector(slot->normal, i);
     for (int k = 0; k < 4; k++) {
         ptrdiff_t o = i + ARM_PX * (arm[k][0] + (ptrdiff_t)arm[k][1] * grid->width);
-        if (slot->label[o] != label || rlf_dot(n, normal_at(slot, o)) < like_seed) {
+        if (slot->label[o] != label || rlf_dot(n, image_grid_vector(slot->normal, o)) < like_seed) {
             return false;
         }
     }
@@ -76,7 +65,7 @@ static bool is_seed(const image_grid *grid, const rlf_slot *slot, int32_t label,
 
 static void add(patch *p, ptrdiff_t i)
 {
-    rlf_vec3 q = point_at(p->grid, p->slot, i);
+    rlf_vec3 q = image_grid_point(p->grid, p->slot->depth, i);
     const double at[3] = {q.x, q.y, q.z};
     p->pixel[p->count++] = (int32_t)i;
     for (int r = 0; r < 3; r++) {
@@ -112,9 +101,10 @@ static void fit(patch *p)
 /* What was filled has the normal of what was seen beside it. */
 static bool is_on_plane(const patch *p, ptrdiff_t i)
 {
-    double off = rlf_dot(p->normal, rlf_sub(point_at(p->grid, p->slot, i), p->centre));
+    double off =
+        rlf_dot(p->normal, rlf_sub(image_grid_point(p->grid, p->slot->depth, i), p->centre));
     bool is_like = p->slot->reason[i] != RLF_REASON_OK ||
-                   rlf_dot(p->normal, normal_at(p->slot, i)) > like_plane;
+                   rlf_dot(p->normal, image_grid_vector(p->slot->normal, i)) > like_plane;
     return off < flat_m && off > -flat_m && is_like;
 }
 
@@ -123,8 +113,8 @@ static void grow(patch *p, uint8_t *visited, int32_t x, int32_t y)
     static const int32_t way[4][2] = {{-STEP_PX, 0}, {STEP_PX, 0}, {0, -STEP_PX}, {0, STEP_PX}};
     const image_grid *grid = p->grid;
     ptrdiff_t seed = (ptrdiff_t)y * grid->width + x;
-    p->centre = point_at(p->grid, p->slot, seed);
-    p->normal = normal_at(p->slot, seed);
+    p->centre = image_grid_point(p->grid, p->slot->depth, seed);
+    p->normal = image_grid_vector(p->slot->normal, seed);
     visited[seed] = 1;
     add(p, seed);
     for (int32_t next = 0; next < p->count && p->count + 4 <= MOST; next++) {
@@ -224,7 +214,7 @@ static rectangle surround(const patch *p)
         r.axis[0] = rlf_add(rlf_scale(u, c), rlf_scale(v, s));
         r.axis[1] = rlf_sub(rlf_scale(v, c), rlf_scale(u, s));
         for (int32_t n = 0; n < p->count; n++) {
-            rlf_vec3 d = rlf_sub(point_at(p->grid, p->slot, p->pixel[n]), p->centre);
+            rlf_vec3 d = rlf_sub(image_grid_point(p->grid, p->slot->depth, p->pixel[n]), p->centre);
             for (int k = 0; k < 2; k++) {
                 double at = rlf_dot(d, r.axis[k]);
                 r.low[k] = rlf_min(r.low[k], at);
@@ -317,7 +307,8 @@ static void mark_known(const thin_in *in, thin *state)
         for (int32_t y = w.y0 + w.y0 % STEP_PX; y < w.y1; y += STEP_PX) {
             for (int32_t x = w.x0; x < w.x1; x++) {
                 ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-                bool is_near = slab_is_near(&view, point_at(grid, in->before, i), side_m);
+                bool is_near =
+                    slab_is_near(&view, image_grid_point(grid, in->before->depth, i), side_m);
                 state->visited[i] = is_near ? 1 : state->visited[i];
             }
         }

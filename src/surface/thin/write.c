@@ -36,7 +36,7 @@ static void write_pixel(const writer *w, int32_t x, int32_t y)
     const ptrdiff_t i = (ptrdiff_t)y * w->grid->width + x;
     const float z = w->slot->depth[i], behind = w->behind[i];
     const double u = w->grid->ray_x[i], v = w->grid->ray_y[i];
-    const rlf_vec3 p = rlf_vec3_make((double)z * u, (double)z * v, (double)z);
+    const rlf_vec3 p = image_grid_point(w->grid, w->slot->depth, i);
     double enter, leave;
     if (!(z > 0.0f) || !slab_is_near(&w->view, p, thing_m) ||
         (!slab_cut_ray(&w->view, u, v, &enter, &leave) &&
