@@ -6,6 +6,36 @@
 #include "kernel/batch.h"
 #include "surface/stage.h"
 
+/* ---- depth/frame.c: the steps in their order ---- */
+/* `raw`: depth as it came; `kept`: without mixed pixels. */
+void depth_read_frame(rlf_reconstruct *stage, const rlf_frame *frame, float *raw, float *kept,
+                      uint8_t *reason);
+/* Says where thin things must be though `kept` has nothing. */
+void depth_track_thin(rlf_reconstruct *stage, const float *kept, const rlf_slot *slot);
+/* In `kept` dropped pixels are recalled, and noise is averaged over time. */
+void depth_average(rlf_reconstruct *stage, const float *raw, float *kept, uint8_t *reason);
+/* Small holes of the slot's depth are filled. `was_seen`: 1 where there was a depth before. */
+void depth_fill(rlf_reconstruct *stage, const rlf_frame *frame, const float *kept, rlf_slot *slot,
+                uint8_t *was_seen);
+
+/* ---- depth/temporal_recall.c: dropped pixels from memory; `depth` holds what was seen ---- */
+/* Something has moved about pixel (x, y) lately, up to the frame before; false in the first frames,
+ * which cannot tell, and always true without averaging over time. */
+bool temporal_may_move(const rlf_reconstruct *stage, int32_t x, int32_t y);
+/* The next pixels of row y, from x on, of which that is true; x0 = x1 when there are none. */
+rlf_span temporal_next_moving(const rlf_reconstruct *stage, int32_t x, int32_t y);
+/* `raw`: the depth as it came. Pixels that are not recalled but believed after all are OK again. */
+void temporal_recall(const rlf_reconstruct *stage, const float *raw, float *depth, uint8_t *reason);
+
+/* ---- depth/temporal_mean.c: depth that does not change is averaged over time ---- */
+void temporal_mean(rlf_reconstruct *stage, float *depth, const uint8_t *reason);
+
+/* ---- depth/oversmooth.c ---- */
+/* Takes back where a plane has put pixels of `smooth` away from what was `seen` there and about
+ * them, and their normals: in blocks that may move. */
+void oversmooth_undo(const rlf_reconstruct *stage, const float *seen, float *smooth,
+                     float *const normal[3]);
+
 /* ---- depth/fill.c ---- */
 /* Fills gaps of at most RLF_FILL_GAP pixels between valid ones of the slot's depth. What shows the
  * background takes its normal too, where planes have been fitted to the others. `was_seen`:
@@ -26,18 +56,12 @@ bool vote_is_wanted(const rlf_reconstruct_def *def);
 /* What frames agree on at pixel i; NULL = nothing. */
 const rlf_vote *vote_at(const rlf_reconstruct *stage, ptrdiff_t i);
 /* What follows is not called when normals.vote.votes is NULL. */
-/* Seen pixels (`known` is 1) that vote take what leads, before others are completed from them;
- * after rlf_normals_crease. */
-void vote_lead(const rlf_reconstruct *stage, const rlf_slot *slot, const uint8_t *known);
 /* Counts this frame's votes. Normals of the background's pixels that vote become those that most
  * frames agree on, and so does the depth of those that were filled on another side. After
  * rlf_background_update. */
 void vote_normals(const rlf_reconstruct *stage, const rlf_slot *slot);
 /* The pixels from `first` on whose mark is not 0 vote from now on. */
 void vote_watch(const rlf_reconstruct *stage, ptrdiff_t first, const uint8_t *marks, int32_t count);
-/* Lags of a row by the normals that the frame before found itself, where they were outvoted. */
-void vote_lags(const rlf_reconstruct *stage, ptrdiff_t row, const rlf_kernel_lag_in *in,
-               int8_t *lag);
 
 /* ---- normals ---- */
 typedef struct rlf_normals_job {
@@ -77,9 +101,6 @@ void rlf_normals_widen(const rlf_reconstruct *stage, const rlf_normals_job *job)
 void rlf_lasting_measure(rlf_reconstruct *stage, const float *depth);
 /* Exact inverse-depth normal of one pixel, for those that no plane explains. */
 void rlf_normals_slope_pixel(const rlf_normals_job *job, int32_t x, int32_t y);
-
-/* The normal that those about a pixel have for it; false, and nothing is written, when none. */
-bool rlf_normals_near_pixel(const rlf_normals_job *job, int32_t x, int32_t y, float out[3]);
 
 /* normals/contour.c: normals of pixels that were filled beside depth contours, and of seen ones
  * near contours of what moves; after rlf_fill_holes. `known`: 1 where depth was not filled. */
@@ -250,9 +271,8 @@ void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot, const float 
 /* Labels and regions of both layers of the slot. */
 void segment_frame(rlf_reconstruct *stage, rlf_slot *slot);
 
-/* ---- publish.c ---- */
+/* ---- reconstruct.c ---- */
 /* The part of the surface that is known when depth and normals are. */
 void surface_publish_seen(const rlf_reconstruct *stage, rlf_slot *slot);
-void surface_publish(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *slot);
 
 #endif

@@ -22,9 +22,9 @@ typedef struct tally {
     int32_t unknown, fresh; /* depth that it is not known of; and there was none before */
 } tally;
 
-RLF_KERNEL static tally count_row(const float *restrict raw, const float *restrict depth,
-                                  const float *restrict mean, const float *restrict before,
-                                  int32_t count)
+RLF_KERNEL static void count_row(const float *restrict raw, const float *restrict depth,
+                                 const float *restrict mean, const float *restrict before,
+                                 int32_t count, tally *restrict sum)
 {
     int32_t seen = 0, known = 0, unknown = 0, fresh = 0;
     for (int32_t i = 0; i < count; i++) {
@@ -35,7 +35,10 @@ RLF_KERNEL static tally count_row(const float *restrict raw, const float *restri
         unknown += is_new;
         fresh += is_new & was_empty;
     }
-    return (tally){seen, known, unknown, fresh};
+    sum->seen += seen;
+    sum->known += known;
+    sum->unknown += unknown;
+    sum->fresh += fresh;
 }
 
 static tally count_all(const rlf_reconstruct *stage, const rlf_slot *slot)
@@ -46,12 +49,8 @@ static tally count_all(const rlf_reconstruct *stage, const rlf_slot *slot)
     for (int32_t y = 0; y < stage->grid.height; y++) {
         const ptrdiff_t row = (ptrdiff_t)y * width;
         const float *before = last != NULL ? last->depth + row : stage->work.zeros;
-        const tally t = count_row(stage->work.raw + row, slot->depth + row,
-                                  stage->background.mean + row, before, width);
-        sum.seen += t.seen;
-        sum.known += t.known;
-        sum.unknown += t.unknown;
-        sum.fresh += t.fresh;
+        count_row(stage->work.raw + row, slot->depth + row, stage->background.mean + row, before,
+                  width, &sum);
     }
     return sum;
 }

@@ -6,9 +6,7 @@
  * not stand in front of what is seen on its left and right. It is foreground when it hangs together
  * with foreground; or when it is large, stands in front, and nothing was known there or it was
  * nearer in the frame before: who goes away from the camera is behind where he was, too. */
-#include "surface/depth/depth.h"
 #include "surface/depth_step.h"
-#include "surface/normals/face.h"
 #include "surface/steps.h"
 
 #include <string.h>

@@ -12,7 +12,6 @@
  * there (thin/thin.h). The outermost pixels, which drivers' filters leave
  * empty, go on as the two inside of them. A hole about as wide as the widest that is filled is
  * filled in some rows and not in others: what is left of it then is closed. */
-#include "surface/depth/depth.h"
 #include "surface/steps.h"
 #include "surface/thin/thin.h"
 
@@ -204,24 +203,6 @@ static void fill_batch(const fill_job *job, fill_queue *q)
     q->count = 0;
 }
 
-/* What a batch will read of the pixel is brought near. */
-RLF_KERNEL_PART void look_ahead(const fill_job *job, ptrdiff_t i)
-{
-    const image_grid *grid = &job->stage->grid;
-    RLF_KERNEL_SOON(&grid->ray_x[i]);
-    RLF_KERNEL_SOON(&grid->ray_y[i]);
-    if (job->behind != NULL) {
-        ptrdiff_t row = ABOUT_BEHIND * grid->width;
-        RLF_KERNEL_SOON(&job->stage->background.mean[i]);
-        RLF_KERNEL_SOON(&job->behind->depth[i]);
-        RLF_KERNEL_SOON(&job->behind->depth[i >= row ? i - row : i]);
-        RLF_KERNEL_SOON(&job->behind->depth[i + row < grid->count ? i + row : i]);
-        for (int k = 0; k < 3; k++) {
-            RLF_KERNEL_SOON(&job->behind->normal[k][i]);
-        }
-    }
-}
-
 static void push(const fill_job *job, int32_t x, int32_t y, const rlf_gaps *gaps, int32_t k,
                  fill_queue *q)
 {
@@ -230,7 +211,6 @@ static void push(const fill_job *job, int32_t x, int32_t y, const rlf_gaps *gaps
     const int32_t *line = rlf_line_step[gaps->line[k]];
     ptrdiff_t step = line[0] + (ptrdiff_t)line[1] * grid->width;
     int32_t lane = q->count++;
-    look_ahead(job, at - job->depth);
     q->line[lane] = gaps->line[k];
     q->x[lane] = x;
     q->y[lane] = y;

@@ -5,7 +5,6 @@
  * two surfaces, where nothing is. But there the pixel is alone: those about it are at the depth
  * that it was seen at. Where something has moved lately, and no mean over time says better, such a
  * pixel goes back to where it was seen, and has no normal of its own. */
-#include "surface/depth/depth.h"
 #include "surface/steps.h"
 
 #include "kernel/kernel.h"

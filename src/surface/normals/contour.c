@@ -11,7 +11,6 @@
  *
  * Narrow faces that no window fits are told by what the means over time show (contour_side.c).
  * Where the contour is, is seen within two pixels, and of what moves within four. */
-#include "surface/depth/depth.h"
 #include "surface/normals/contour.h"
 
 #include <string.h>

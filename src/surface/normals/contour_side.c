@@ -11,7 +11,6 @@
  * Of a side that is one pixel wide nothing is ever seen. A thing that is no wider than a leg or a
  * pole is then taken to be as deep as it is wide: if its side would reach the outermost pixel's
  * ray, that pixel is on it. */
-#include "surface/depth/depth.h"
 #include "surface/normals/contour.h"
 
 static const double LEAST_FLAT = 0.985;  /* cosine between two normals of a front */

@@ -48,23 +48,16 @@ void rlf_normals_plane(const rlf_normals_job *job)
     rlf_normals_plane_complete(job);
 }
 
-static void turn_to_image_plane(const rlf_normals_job *job)
+/* To the camera, or as in eq. 4.3 to the image's plane. */
+static void turn(const rlf_normals_job *job)
 {
     size_t count = (size_t)job->width * (size_t)job->height;
     for (size_t i = 0; i < count; i++) {
-        float sign = job->out[2][i] > 0.0f ? -1.0f : 1.0f;
-        for (int k = 0; k < 3; k++) {
-            job->out[k][i] *= sign;
+        float facing = job->out[2][i];
+        if (job->face_camera) {
+            facing =
+                job->out[0][i] * job->ray_x[i] + job->out[1][i] * job->ray_y[i] + job->out[2][i];
         }
-    }
-}
-
-static void turn_to_camera(const rlf_normals_job *job)
-{
-    size_t count = (size_t)job->width * (size_t)job->height;
-    for (size_t i = 0; i < count; i++) {
-        float facing =
-            job->out[0][i] * job->ray_x[i] + job->out[1][i] * job->ray_y[i] + job->out[2][i];
         float sign = facing > 0.0f ? -1.0f : 1.0f;
         for (int k = 0; k < 3; k++) {
             job->out[k][i] *= sign;
@@ -86,10 +79,8 @@ void rlf_normals_compute(const rlf_normals_job *job)
         }
         break;
     }
-    if (!job->face_camera) {
-        turn_to_image_plane(job);
-    } else if (job->method != RLF_NORMALS_INVERSE_DEPTH) {
-        turn_to_camera(job);
+    if (!job->face_camera || job->method != RLF_NORMALS_INVERSE_DEPTH) {
+        turn(job);
     }
 }
 

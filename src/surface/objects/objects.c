@@ -69,18 +69,15 @@ static void spread(rlf_reconstruct *stage, int32_t i, int32_t j, int32_t link, i
 static void spread_to(rlf_reconstruct *stage, int32_t i, bool is_back, int32_t least)
 {
     const uint8_t *links = stage->objects->links;
-    int32_t width = stage->grid.width, x = i % width;
-    if (!is_back && x > 0) {
-        spread(stage, i, i - 1, least > 1 ? links[i] & RLF_LINK_LEFT : 1, least);
-    }
-    if (!is_back && i >= width) {
-        spread(stage, i, i - width, least > 1 ? links[i] & RLF_LINK_UP : 1, least);
-    }
-    if (is_back && x + 1 < width) {
-        spread(stage, i, i + 1, least > 1 ? links[i + 1] & RLF_LINK_LEFT : 1, least);
-    }
-    if (is_back && i + width < stage->grid.count) {
-        spread(stage, i, i + width, least > 1 ? links[i + width] & RLF_LINK_UP : 1, least);
+    const int32_t width = stage->grid.width, x = i % width, step = is_back ? 1 : -1;
+    const bool is_in[2] = {is_back ? x + 1 < width : x > 0,
+                           is_back ? i + width < stage->grid.count : i >= width};
+    const int32_t bit[2] = {RLF_LINK_LEFT, RLF_LINK_UP}, way[2] = {step, step * width};
+    for (int k = 0; k < 2; k++) {
+        if (is_in[k]) {
+            int32_t link = links[is_back ? i + way[k] : i] & bit[k];
+            spread(stage, i, i + way[k], least > 1 ? link : 1, least);
+        }
     }
 }
 

@@ -46,24 +46,14 @@ static void begin_round(rlf_reconstruct *stage, const background_image *image)
 }
 
 /* The piece's runs, as those of one region, to work.runs. */
-static void make_runs(const rlf_reconstruct *stage, const rlf_rect *b, int32_t piece)
+static void make_runs(rlf_reconstruct *stage, int32_t piece)
 {
-    rlf_runs runs = stage->work.runs;
-    int32_t count = 0;
-    for (int32_t y = 0; y < stage->grid.height; y++) {
-        const uint8_t *row = stage->background.thick.piece + (ptrdiff_t)y * stage->grid.width;
-        runs.first[y] = count;
-        for (int32_t x = b->x0; x < b->x1 && y >= b->y0 && y < b->y1; x++) {
-            int32_t begin = x;
-            while (x < b->x1 && row[x] == piece) {
-                x++;
-            }
-            if (x > begin) {
-                runs.run[count++] = (rlf_run){begin, x, 1};
-            }
-        }
+    const uint8_t *pieces = stage->background.thick.piece;
+    int32_t *number = stage->work.component;
+    for (int32_t i = 0; i < stage->grid.count; i++) {
+        number[i] = pieces[i] == piece;
     }
-    runs.first[stage->grid.height] = count;
+    rlf_runs_find(stage, number);
 }
 
 static void fit_box(const rlf_reconstruct *stage, int32_t piece, const static_box *box)
@@ -98,7 +88,7 @@ static void fit_conics(rlf_reconstruct *stage, int32_t piece)
     job.is_of_people = false;
     job.behind = NULL;
     stage->work.map[1] = 0; /* no plate */
-    make_runs(stage, &block, piece);
+    make_runs(stage, piece);
     rlf_thickness_fit(&job, &block);
     rlf_thickness_write(&job);
 }
