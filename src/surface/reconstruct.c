@@ -107,7 +107,6 @@ static void find_motion(rlf_reconstruct *stage, rlf_slot *slot)
 {
     if (stage->def.enable_velocity) {
         rlf_velocity_estimate(stage, slot);
-        thin_keep_velocity(&stage->thin, stage->previous, &stage->grid, slot);
         rlf_stage_add_time(stage, RLF_SURFACE_VELOCITY);
     }
 }

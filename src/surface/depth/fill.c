@@ -219,10 +219,9 @@ static void push(const fill_job *job, int32_t x, int32_t y, const rlf_gaps *gaps
     q->ends.to_before[lane] = (float)gaps->to_before[k];
     q->ends.to_after[lane] = (float)gaps->to_after[k];
     q->ends.most_apart[lane] = temporal_may_move(job->stage, x, y) ? MOVING_CHANGE : MOST_CHANGE;
-    const int32_t to_ends[2] = {gaps->to_before[k], gaps->to_after[k]};
     float before = q->ends.before[lane], after = q->ends.after[lane];
-    q->lost[lane] = thin_find_lost(&job->stage->thin, at - job->depth, step, to_ends,
-                                   before < after ? before : after);
+    q->lost[lane] =
+        thin_find_lost(&job->stage->thin, at - job->depth, before < after ? before : after);
     rlf_windows_read(job->depth, grid->width, grid->height, x, y, lane, &q->depth);
     if (q->count == RLF_BATCH) {
         fill_batch(job, q);

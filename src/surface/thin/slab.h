@@ -51,10 +51,4 @@ slab_fit slab_improve(const thin_in *in, slab *s);
 /* Finds flat things in the foreground of the frame before that are no slabs yet. */
 void slab_find(const thin_in *in, thin *state);
 
-/* ---- lost.c ---- */
-/* Expects what moved in the frame before where it is now though nothing is seen there. */
-void thin_expect_moved(const thin_in *in, thin *state);
-/* A slab is known to be at pixel k, at depth z, if nothing is seen there. */
-void thin_expect_slab(thin *state, ptrdiff_t k, float z);
-
 #endif
