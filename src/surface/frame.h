@@ -67,6 +67,9 @@ static inline rlf_meeting rlf_faces_meet(float at_a, float b_at_a, float at_b, f
     return convex ? RLF_FACES_CONVEX : (concave ? RLF_FACES_CONCAVE : RLF_FACES_APART);
 }
 
+/* Most pixels of a row that are looked at together. */
+enum { RLF_PART = 128 };
+
 /* Pixels x0 <= x < x1 of one row. */
 typedef struct rlf_span {
     int32_t x0, x1;

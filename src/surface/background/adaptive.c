@@ -12,7 +12,7 @@
 
 #include <string.h>
 
-enum { LONGEST_STEP_MS = 200, CHUNK = 128 };
+enum { LONGEST_STEP_MS = 200 };
 
 typedef struct model_job {
     const rlf_reconstruct *stage;
@@ -132,9 +132,9 @@ static void absorb_row(rlf_reconstruct *stage, const rlf_slot *slot, const rlf_k
                        int32_t y, rlf_span span)
 {
     rlf_background *background = &stage->background;
-    for (int32_t x = span.x0; x < span.x1; x += CHUNK) {
-        uint8_t is_due[CHUNK];
-        int32_t i = y * stage->grid.width + x, count = rlf_least(CHUNK, span.x1 - x);
+    for (int32_t x = span.x0; x < span.x1; x += RLF_PART) {
+        uint8_t is_due[RLF_PART];
+        int32_t i = y * stage->grid.width + x, count = rlf_least(RLF_PART, span.x1 - x);
         rlf_kernel_still_row(p, slot->foreground + i, slot->depth + i, count, background->still + i,
                              background->still_ms + i, is_due);
         for (int32_t k = 0; (k = rlf_kernel_next_mark(is_due, k, count)) < count; k++) {

@@ -22,7 +22,6 @@ enum {
     DOWN,
     WAYS,
     SELDOM = 64, /* of 255: a pixel without depth in fewer frames has it as a rule */
-    MIXED = 2,   /* pixels that drivers drop beside an edge */
     LEARN_SHIFT = 2,
     LEARN_ROWS = 4,
     LEAST_SEEN = 3 /* samples of a background pixel that is known */
@@ -129,7 +128,7 @@ static bool is_at_edge(const hidden_job *job, const hits *h)
         bool is_between = h->at[k] >= 0 && h->at[k + 1] >= 0;
         int32_t edges = is_front(job, h->at[k]) || is_front(job, h->at[k + 1]) ? 1 : 2;
         float wide = h->away[k] + h->away[k + 1] - 1.0f;
-        if (is_between && wide <= (float)(edges * 2 * MIXED + edges - 1)) {
+        if (is_between && wide <= (float)(edges * 2 * RLF_SHADOW_MIXED + edges - 1)) {
             return true;
         }
     }

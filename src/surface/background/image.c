@@ -15,14 +15,14 @@
 enum {
     MARGIN = 12, /* pixels around a tile that its normals depend on; even */
     CROP = BACKGROUND_TILE + 2 * MARGIN,
-    PARTS = 24,           /* of the tiles are made per frame, one ... */
-    PARTS_URGENT = 5,     /* ... or, when a thing has left, one of so many */
-    CHANGES = 30,         /* replaced pixels that make a new image ... */
-    FRAMES = 10,          /* ... after at least this many frames */
-    CHANGES_URGENT = 400, /* replaced pixels that make one at once: a thing has left */
-    FRAMES_LONG = 30,     /* after this many any change does */
-    SHOWN_FRAMES = 10,    /* so many show what the first few did not, beside outlines ... */
-    REFINED_FRAMES = 40   /* ... and so many make a mean much better */
+    PARTS = 24,            /* of the tiles are made per frame, one ... */
+    PARTS_URGENT = 5,      /* ... or, when a thing has left, one of so many */
+    CHANGES = 30,          /* replaced pixels that make a new image ... */
+    FRAMES = 10,           /* ... after at least this many frames */
+    CHANGES_URGENT = 400,  /* replaced pixels that make one at once: a thing has left */
+    FRAMES_LONG = 30,      /* after this many any change does */
+    SHOWN_FRAMES = FRAMES, /* so many show what the first few did not, beside outlines ... */
+    REFINED_FRAMES = 40    /* ... and so many make a mean much better */
 };
 
 const background_image *background_image_newest(const rlf_reconstruct *stage)

@@ -7,9 +7,10 @@
 #include "kernel/kernel.h"
 
 enum {
-    ROOM_SHARE = 10,  /* of the picture one of so many parts has depth: there is a room */
-    BLIND_SHARE = 10, /* of the known background no more than one of so many parts has depth */
-    RISE_SHARE = 10,  /* a sensor that warms up shows more by one of so many parts, at least */
+    /* One of so many parts of the picture has depth: there is a room. No more than that of the
+     * known background has: nothing is seen. A sensor that warms up shows more by that, at least.
+     */
+    FEW_SHARE = 10,
     MORE_SHARE = 4,   /* of the picture one of so many parts comes into sight */
     MORE_OF_KNOWN = 2 /* the same while the background is learnt, of what is known */
 };
@@ -68,7 +69,7 @@ static bool has_room(rlf_sight *sight, const tally *t, int32_t count, int64_t ti
         sight->first_ns = time_ns;
     }
     sight->is_warm = sight->has_depth && time_ns - sight->first_ns >= WARM_UP_NS;
-    return sight->has_room || ROOM_SHARE * (int64_t)t->seen >= count ||
+    return sight->has_room || FEW_SHARE * (int64_t)t->seen >= count ||
            (sight->is_warm && t->seen > 0);
 }
 
@@ -82,8 +83,8 @@ static bool shows_enough(const rlf_reconstruct *stage, const tally *t)
     const rlf_sight *sight = &stage->sight;
     const int64_t seen = t->seen, more = seen - sight->seen;
     const bool is_rising =
-        is_learning(stage) && !sight->is_warm && sight->seen > 0 && RISE_SHARE * more > sight->seen;
-    return sight->has_room && seen > 0 && BLIND_SHARE * seen >= t->known && !is_rising;
+        is_learning(stage) && !sight->is_warm && sight->seen > 0 && FEW_SHARE * more > sight->seen;
+    return sight->has_room && seen > 0 && FEW_SHARE * seen >= t->known && !is_rising;
 }
 
 typedef struct border {

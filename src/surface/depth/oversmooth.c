@@ -9,7 +9,7 @@
 
 #include "kernel/kernel.h"
 
-enum { SPAN = 128, LEAST_BESIDE = 2 };
+enum { LEAST_BESIDE = 2 };
 
 /* Of the depth: off its surface, as flying_row.c has it; at the same depth. */
 static const float far_share = 0.012f, far_m = 0.004f;
@@ -51,7 +51,7 @@ static void look_at_pixel(const oversmooth_job *job, ptrdiff_t i)
 static void look_at_run(const oversmooth_job *job, int32_t x, int32_t y, int32_t count)
 {
     ptrdiff_t first = (ptrdiff_t)y * job->stage->grid.width + x;
-    uint8_t moved[SPAN];
+    uint8_t moved[RLF_PART];
     rlf_kernel_moved_row(job->seen + first, job->smooth + first, far_share, far_m, count, moved);
     for (int32_t k = 0; (k = rlf_kernel_next_mark(moved, k, count)) < count; k++) {
         look_at_pixel(job, first + k);
@@ -68,8 +68,8 @@ static void look_at_rows(void *context, int32_t begin, int32_t end, int32_t work
         for (int32_t x = 0; x < grid->width;) {
             rlf_span moving = temporal_next_moving(job->stage, x, y);
             int32_t x0 = moving.x0 > 1 ? moving.x0 : 1, x1 = rlf_least(moving.x1, grid->width - 1);
-            for (; x0 < x1; x0 += SPAN) {
-                look_at_run(job, x0, y, x1 - x0 < SPAN ? x1 - x0 : SPAN);
+            for (; x0 < x1; x0 += RLF_PART) {
+                look_at_run(job, x0, y, x1 - x0 < RLF_PART ? x1 - x0 : RLF_PART);
             }
             x = moving.x1;
         }

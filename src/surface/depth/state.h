@@ -74,7 +74,10 @@ void color_guide_allocate(rlf_color_guide *state, rlf_arena *arena, const rlf_re
 
 /* The shadow that the sensor's projector leaves beside near things: see shadow.c. Two sides of a
  * thing: left, right. */
-enum { RLF_SHADOW_BINS = 32 };
+enum {
+    RLF_SHADOW_BINS = 32,
+    RLF_SHADOW_MIXED = 2 /* pixels at an edge that drivers drop without a shadow */
+};
 
 typedef struct rlf_shadow {
     float told[2][RLF_SHADOW_BINS]; /* by how many runs without depth, per baseline */

@@ -18,7 +18,7 @@
 
 /* ---- one pixel ---- */
 
-enum { REACH = 2, SIDE = 1 + 2 * REACH, LANES = 8 /* of which SIDE count */ };
+enum { REACH = RLF_WINDOW_ABOUT, SIDE = 1 + 2 * REACH, LANES = 8 /* of which SIDE count */ };
 
 static const double AGREED = 0.84;     /* length of a mean of normals of one face */
 static const float TURNED = 0.85f;     /* cosine between the normals of two faces */
@@ -191,7 +191,7 @@ static bool find_near(const rlf_normals_job *job, int32_t x, int32_t y, float ou
 /* ---- all of them ---- */
 
 enum {
-    BAND_ROWS = 16,
+    BAND_ROWS = RLF_ROW_GRAIN,
     MOST_ASIDE = 2048 /* pixels of a band; of what is beyond, the next ones know */
 };
 
@@ -258,12 +258,11 @@ RLF_KERNEL static void find_bare(const float *restrict depth, const float *restr
 /* How many pixels still have none. `to` is NULL when these are to be completed by all means. */
 static int32_t complete_row(const rlf_normals_job *job, int32_t y, aside *to)
 {
-    enum { SPAN = 512 };
     ptrdiff_t row = (ptrdiff_t)y * job->width;
     int32_t left = 0;
-    for (int32_t begin = 0; begin < job->width; begin += SPAN) {
-        uint8_t bare[SPAN];
-        int32_t count = begin + SPAN < job->width ? SPAN : job->width - begin;
+    for (int32_t begin = 0; begin < job->width; begin += RLF_PART) {
+        uint8_t bare[RLF_PART];
+        int32_t count = begin + RLF_PART < job->width ? RLF_PART : job->width - begin;
         find_bare(job->filled + row + begin, job->out[2] + row + begin, count, bare);
         for (int32_t k = 0; (k = rlf_kernel_next_mark(bare, k, count)) < count; k++) {
             int32_t x = begin + k;

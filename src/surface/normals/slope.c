@@ -3,7 +3,7 @@
 
 #include "kernel/kernel.h"
 
-enum { STRIP = 256, INVERSE_ROWS = 5, RAY_ROWS = 3 };
+enum { STRIP = 256, INVERSE_ROWS = RLF_WINDOW_SIDE, RAY_ROWS = 3 };
 
 /* The rows about one, a strip of columns of each. */
 typedef struct strip {

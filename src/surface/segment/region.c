@@ -1,5 +1,4 @@
-/* From components to regions: which are kept, which small ones join a neighbour, and their order.
- */
+/* From components to regions: which are kept, and their order. */
 #include "surface/objects/objects.h"
 
 #include <string.h>
@@ -57,56 +56,14 @@ static int32_t least_size(const rlf_reconstruct *stage, int32_t component_count)
     return low;
 }
 
-static void meet(const rlf_work *work, int32_t a, int32_t b)
-{
-    int32_t *best = work->vote[0];
-    if (a == b || a == 0 || b == 0) {
-        return;
-    }
-    best[a] = best[a] == 0 || work->size[b] > work->size[best[a]] ? b : best[a];
-    best[b] = best[b] == 0 || work->size[a] > work->size[best[b]] ? a : best[b];
-}
-
-/* vote[0][c]: the largest component that touches c in the image. */
-static void find_neighbours(const rlf_reconstruct *stage, int32_t component_count)
-{
-    const rlf_work *work = &stage->work;
-    const rlf_run *runs = work->runs.run;
-    memset(work->vote[0], 0, (size_t)(component_count + 1) * sizeof *work->vote[0]);
-    for (int32_t y = 0; y < stage->grid.height; y++) {
-        int32_t begin = work->runs.first[y], end = work->runs.first[y + 1];
-        int32_t above = y > 0 ? work->runs.first[y - 1] : begin;
-        for (int32_t r = begin; r < end; r++) {
-            if (r > begin && runs[r - 1].x1 == runs[r].x0) {
-                meet(work, runs[r].component, runs[r - 1].component);
-            }
-            while (above < begin && runs[above].x1 <= runs[r].x0) {
-                above++;
-            }
-            for (int32_t a = above; a < begin && runs[a].x0 < runs[r].x1; a++) {
-                meet(work, runs[r].component, runs[a].component);
-            }
-        }
-    }
-}
-
-/* map[c] = region number, 0 = dropped. Small pieces join the largest component they touch. */
-static int32_t number_regions(rlf_reconstruct *stage, int32_t component_count, bool merge)
+/* map[c] = region number, 0 = dropped. */
+static int32_t number_regions(rlf_reconstruct *stage, int32_t component_count)
 {
     rlf_work *work = &stage->work;
     int32_t least = least_size(stage, component_count);
     int32_t count = 0;
     for (int32_t c = 1; c <= component_count; c++) {
         work->map[c] = work->size[c] >= least ? ++count : 0;
-    }
-    if (merge && count < component_count) {
-        find_neighbours(stage, component_count);
-        for (int32_t c = 1; c <= component_count; c++) {
-            int32_t b = work->vote[0][c];
-            if (work->size[c] < least && b != 0 && work->size[b] >= least) {
-                work->map[c] = work->map[b];
-            }
-        }
     }
     return count;
 }
@@ -148,7 +105,7 @@ static void dilate(rlf_reconstruct *stage, const rlf_layer_in *in)
 void rlf_layer_segment(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out)
 {
     int32_t components = find_components(stage, in);
-    out->region_count = number_regions(stage, components, in->method >= RLF_SEGMENT_NOISE);
+    out->region_count = number_regions(stage, components);
     number_runs(stage);
     if (in->method == RLF_SEGMENT_THESIS && stage->def.enable_dilation) {
         dilate(stage, in);

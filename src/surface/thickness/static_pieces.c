@@ -6,10 +6,9 @@
 #include <string.h>
 
 enum {
-    ARM = 2,    /* pixels on both sides of a crease whose normals are compared */
-    GROWN = 3,  /* pixels beside it that are given to the pieces again */
-    BANDS = 16, /* of rows, of which one per step is searched for creases */
-    LEAST_POINTS = 150,
+    ARM = 2,        /* pixels on both sides of a crease whose normals are compared */
+    GROWN = 3,      /* pixels beside it that are given to the pieces again */
+    BANDS = 16,     /* of rows, of which one per step is searched for creases */
     IMAGE_SHARE = 5 /* a piece whose rectangle is more than one of so many parts is the room */
 };
 
@@ -82,7 +81,7 @@ static void separate(rlf_reconstruct *stage)
     rlf_segment_links(stage, RLF_SEGMENT_NOISE, smooth, NULL, NULL);
     int32_t components = rlf_components_find(stage, NULL), count = 0;
     for (int32_t c = 1; c <= components; c++) {
-        bool is_large = stage->work.size[c] >= LEAST_POINTS && count < RLF_PIECES;
+        bool is_large = stage->work.size[c] >= stage->def.min_region_points && count < RLF_PIECES;
         number[c] = is_large ? ++count : 0;
     }
     state->piece_count = count;

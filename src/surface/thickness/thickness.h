@@ -57,6 +57,9 @@ typedef struct rlf_conic {
 /* Pixels whose depth differs by more show two bodies, be they a trunk and an arm on it. */
 #define RLF_BODY_STEP_M 0.04f
 
+/* Real bodies are not quite conics. */
+#define RLF_SHAPE_ERROR_M 0.003f
+
 /* Nothing is taken to be thinner, or thicker. */
 #define RLF_THINNEST_M 0.02f
 #define RLF_THICKEST_M 0.6f

@@ -12,7 +12,6 @@
 enum {
     SEED_PX = 4, /* seeds are so far apart */
     FRAMES = 4,  /* each row of them is looked at in one of so many */
-    ARM_PX = 3,  /* normals so far from a seed are its own */
     STEP_PX = 2, /* patches are grown over every second pixel of every second row */
     LEAST = 24,  /* pixels of a patch, of those */
     MOST = SLAB_PATCH,
@@ -20,13 +19,13 @@ enum {
     A_PATCH = 64,          /* its planes cost as much as so many pixels */
     FIRST_FIT = 12,
     TURNS = 15,
-    EDGE_PX = 3 /* a step so near the patch is its own */
+    EDGE_PX = 3,     /* a step so near the patch is its own */
+    ARM_PX = EDGE_PX /* and normals so far from a seed are */
 };
 
 static const double like_seed = 0.99; /* cosine */
 static const double like_plane = 0.978;
 static const double flat_m = 0.006, flat_rms_m = 0.0035;
-static const double step_m = 0.03;  /* behind the plane */
 static const double side_m = 0.045; /* a thin side is narrower */
 static const double least_area_m2 = 0.015, least_full = 0.7;
 static const double least_facing = 0.2; /* sine of the angle between the face and the ray */
@@ -160,12 +159,12 @@ static void look_out(const patch *p, int32_t i, int32_t dx, int32_t dy, int32_t 
         ptrdiff_t o = (ptrdiff_t)v * grid->width + u;
         double seen = p->slot->depth[o], plane = depth_of_plane(p, o);
         double farther = seen - before - rlf_max(plane - plane_before, 0.0);
-        if (p->slot->foreground[o] == 0 || farther > step_m) {
+        if (p->slot->foreground[o] == 0 || farther > THIN_NEAR_M) {
             *steps += k <= EDGE_PX;
             *sides += k > EDGE_PX;
             return;
         }
-        if (seen < before - step_m) {
+        if (seen < before - THIN_NEAR_M) {
             return;
         }
         before = seen;

@@ -14,6 +14,8 @@
 /* Metres. What is farther off is another thing; half a slab's width at least, and its thickness at
  * most. */
 #define THIN_STEP_M 0.04
+/* Metres: what is seen so near a slab is it. */
+#define THIN_NEAR_M 0.03
 /* Metres: nothing is seen nearer than this. */
 #define THIN_LEAST_Z 0.1
 

@@ -12,8 +12,7 @@ static const double follow_share = 0.8; /* of a change of velocity */
 static const double spin_left = 0.9;    /* of a frame's, in the next */
 static const double longest_lost_s = 0.6, longest_passed_s = 0.1;
 static const double least_half_m = 0.038, most_half_m = 0.6;
-static const double young_s = 0.25;        /* it is a slab if it is not lost before */
-static const float known_before_m = 0.03f; /* nothing seen beside it is nearer than this */
+static const double young_s = 0.25; /* it is a slab if it is not lost before */
 enum { LEAST_FACES = 4, LEAST_SHARE = 4, MOST_PIXELS = 2048 };
 
 static void predict(slab *s, double dt)
@@ -152,7 +151,7 @@ void thin_track(const thin_in *in, thin *state)
 
 float thin_find_lost(const thin *state, ptrdiff_t i, float nearest)
 {
-    bool is_there = thin_is_expected(state, i) && state->expected[i] < nearest + known_before_m;
+    bool is_there = thin_is_expected(state, i) && state->expected[i] < nearest + (float)THIN_NEAR_M;
     return is_there ? state->expected[i] : 0.0f;
 }
 
