@@ -111,7 +111,9 @@ void rlf_normals_contour(const rlf_reconstruct *stage, const rlf_slot *slot, con
  * rlf_fill_holes. */
 void rlf_normals_crease(const rlf_reconstruct *stage, const rlf_slot *slot, const uint8_t *known);
 
-/* ---- segment/components.c ---- */
+/* ---- segment/segment.c ---- */
+/* The member that stands for the set that a is in. */
+int32_t rlf_component_root(int32_t *parent, int32_t a);
 /* Connected components of the members of work.links, over their links, into work.runs; numbered
  * from 1 in raster order. work.size holds their pixel counts. `spans`: where the members of each
  * row are; NULL = anywhere. Returns their number. */
@@ -119,7 +121,6 @@ int32_t rlf_components_find(const rlf_reconstruct *stage, const rlf_span *spans)
 /* Runs of equal numbers of a plane, into work.runs. */
 void rlf_runs_find(rlf_reconstruct *stage, const int32_t *number);
 
-/* ---- segment/segment.c ---- */
 /* Writes work.links from depth and (when not NULL) the members' mask, within the spans. */
 void rlf_segment_links(const rlf_reconstruct *stage, rlf_segment_method method, const float *depth,
                        const uint8_t *mask, const rlf_span *spans);

@@ -35,25 +35,22 @@ static int32_t find_components(rlf_reconstruct *stage, const rlf_layer_in *in)
     return rlf_components_find(stage, in->spans);
 }
 
-/* Smallest size that leaves at most region_capacity components, found by bisection. */
+/* Smallest size that leaves at most region_capacity components. */
 static int32_t least_size(const rlf_reconstruct *stage, int32_t component_count)
 {
-    int32_t low = stage->def.min_region_points > 1 ? stage->def.min_region_points : 1;
-    int32_t high = stage->grid.count + 1;
-    high = high > low ? high : low;
-    while (low < high) {
-        int32_t middle = low + (high - low) / 2;
-        int32_t kept = 0;
+    int32_t least = stage->def.min_region_points > 1 ? stage->def.min_region_points : 1;
+    for (;;) {
+        int32_t kept = 0, smallest = INT32_MAX - 1;
         for (int32_t c = 1; c <= component_count; c++) {
-            kept += stage->work.size[c] >= middle ? 1 : 0;
+            int32_t size = stage->work.size[c];
+            kept += size >= least ? 1 : 0;
+            smallest = size >= least ? rlf_least(size, smallest) : smallest;
         }
         if (kept <= stage->def.region_capacity) {
-            high = middle;
-        } else {
-            low = middle + 1;
+            return least;
         }
+        least = smallest + 1;
     }
-    return low;
 }
 
 /* map[c] = region number, 0 = dropped. */

@@ -141,12 +141,6 @@ float rlf_line_origin(const rlf_chord_job *job, int32_t index);
 /* Finds the chords of the line and measures them. Returns their number. */
 int32_t rlf_chords_cut(const rlf_chord_job *job, const rlf_line *line, rlf_chord *out);
 
-/* ---- thickness/pool.c ---- */
-/* Adds to each chord what its neighbours on the lines beside it say about its shape. */
-void rlf_chords_pool(const rlf_chord_job *job, int32_t line_count);
-/* Tells each chord where the rows above and below have the middle of its body. */
-void rlf_chords_align(const rlf_chord_job *job, int32_t row_count);
-
 /* ---- thickness/conic.c ---- */
 /* Fills the sums of a chord whose ends and parts are known; false when it shows nothing. */
 bool rlf_chord_measure(const rlf_chord_job *job, const rlf_line *line, rlf_chord *chord);

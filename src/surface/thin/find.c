@@ -32,6 +32,9 @@ static const double least_facing = 0.2; /* sine of the angle between the face an
 static const double least_steps = 0.4, least_ends = 0.8;
 static const double first_half_m = 0.01; /* half a slab's thickness, before it is seen */
 
+/* To the neighbours. */
+static const int32_t way[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+
 /* A patch of one region. */
 typedef struct patch {
     const image_grid *grid;
@@ -46,7 +49,6 @@ typedef struct patch {
 static bool is_seed(const image_grid *grid, const rlf_slot *slot, int32_t label, int32_t x,
                     int32_t y)
 {
-    static const int32_t arm[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
     if (x < ARM_PX || y < ARM_PX || x + ARM_PX >= grid->width || y + ARM_PX >= grid->height ||
         slot->label[i] != label || slot->reason[i] != RLF_REASON_OK) {
@@ -54,7 +56,7 @@ static bool is_seed(const image_grid *grid, const rlf_slot *slot, int32_t label,
     }
     rlf_vec3 n = image_grid_vector(slot->normal, i);
     for (int k = 0; k < 4; k++) {
-        ptrdiff_t o = i + ARM_PX * (arm[k][0] + (ptrdiff_t)arm[k][1] * grid->width);
+        ptrdiff_t o = i + ARM_PX * (way[k][0] + (ptrdiff_t)way[k][1] * grid->width);
         if (slot->label[o] != label || rlf_dot(n, image_grid_vector(slot->normal, o)) < like_seed) {
             return false;
         }
@@ -109,7 +111,6 @@ static bool is_on_plane(const patch *p, ptrdiff_t i)
 
 static void grow(patch *p, uint8_t *visited, int32_t x, int32_t y)
 {
-    static const int32_t way[4][2] = {{-STEP_PX, 0}, {STEP_PX, 0}, {0, -STEP_PX}, {0, STEP_PX}};
     const image_grid *grid = p->grid;
     ptrdiff_t seed = (ptrdiff_t)y * grid->width + x;
     p->centre = image_grid_point(p->grid, p->slot->depth, seed);
@@ -119,7 +120,7 @@ static void grow(patch *p, uint8_t *visited, int32_t x, int32_t y)
     for (int32_t next = 0; next < p->count && p->count + 4 <= MOST; next++) {
         int32_t i = p->pixel[next], u = i % grid->width, v = i / grid->width;
         for (int k = 0; k < 4; k++) {
-            int32_t a = u + way[k][0], b = v + way[k][1];
+            int32_t a = u + STEP_PX * way[k][0], b = v + STEP_PX * way[k][1];
             ptrdiff_t o = (ptrdiff_t)b * grid->width + a;
             if (a >= 0 && b >= 0 && a < grid->width && b < grid->height && visited[o] == 0 &&
                 p->slot->label[o] == p->label && is_on_plane(p, o)) {
@@ -174,7 +175,6 @@ static void look_out(const patch *p, int32_t i, int32_t dx, int32_t dy, int32_t 
 
 static bool has_outline(const patch *p, const uint8_t *mine)
 {
-    static const int32_t way[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     const image_grid *grid = p->grid;
     int32_t ends = 0, steps = 0, sides = 0;
     for (int32_t n = 0; n < p->count; n++) {
