@@ -272,8 +272,9 @@ void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot, const float 
 /* Labels and regions of both layers of the slot. */
 void segment_frame(rlf_reconstruct *stage, rlf_slot *slot);
 
-/* ---- reconstruct.c ---- */
+/* ---- publish.c ---- */
 /* The part of the surface that is known when depth and normals are. */
 void surface_publish_seen(const rlf_reconstruct *stage, rlf_slot *slot);
+void surface_publish(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *slot);
 
 #endif

@@ -55,6 +55,17 @@ void background_image_changed(rlf_background *background, const image_grid *grid
     background->changed += count;
 }
 
+void background_put(rlf_reconstruct *stage, int32_t i, float z, uint8_t weight)
+{
+    rlf_background *background = &stage->background;
+    const int32_t width = stage->grid.width;
+    background->mean[i] = z;
+    background->deviation[i] = 0.0f;
+    background->weight[i] = weight;
+    background->beyond[i] = 0;
+    background_image_changed(background, &stage->grid, i % width, i / width, 1);
+}
+
 static rlf_rect tile_at(const image_grid *grid, int32_t tile)
 {
     int32_t x0 = tile % tile_columns(grid) * BACKGROUND_TILE;

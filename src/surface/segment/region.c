@@ -140,15 +140,6 @@ static int32_t region_around(const rlf_layer_out *out, rlf_vec3 p)
     return 0;
 }
 
-void rlf_region_grow(rlf_region *region, const rlf_run *run, int32_t y)
-{
-    region->point_count += run->x1 - run->x0;
-    region->x0 = run->x0 < region->x0 ? run->x0 : region->x0;
-    region->x1 = run->x1 > region->x1 ? run->x1 : region->x1;
-    region->y0 = y < region->y0 ? y : region->y0;
-    region->y1 = y + 1 > region->y1 ? y + 1 : region->y1;
-}
-
 /* map[c] of the pieces: the region that an end of one of their runs is close to, 0 = none. */
 static void find_homes(const rlf_reconstruct *stage, const float *depth, const rlf_layer_out *out)
 {

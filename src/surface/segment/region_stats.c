@@ -23,6 +23,15 @@ static void clear_region(rlf_region *region, rlf_region_sum *sum, const rlf_laye
     clear_extents(&sum->points);
 }
 
+void rlf_region_grow(rlf_region *region, const rlf_run *run, int32_t y)
+{
+    region->point_count += run->x1 - run->x0;
+    region->x0 = run->x0 < region->x0 ? run->x0 : region->x0;
+    region->x1 = run->x1 > region->x1 ? run->x1 : region->x1;
+    region->y0 = y < region->y0 ? y : region->y0;
+    region->y1 = y + 1 > region->y1 ? y + 1 : region->y1;
+}
+
 /* Sums of the runs' points, or when `is_extent` how far these go along the axes of their sum. */
 static void add_runs(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out,
                      bool is_extent)

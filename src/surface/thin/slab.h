@@ -24,7 +24,7 @@ typedef struct slab_point {
     double square;    /* of the distance to it */
 } slab_point;
 
-/* ---- track.c ---- */
+/* ---- box.c ---- */
 slab_view slab_look(const slab *s);
 /* Depths at which the ray (x, y, 1) enters and leaves it; false when it misses it. */
 bool slab_cut_ray(const slab_view *view, double x, double y, double *enter, double *leave);
