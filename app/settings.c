@@ -65,10 +65,6 @@ static const setting table[] = {
     {"foreground_segment", KIND_WORD, AT(foreground_segment), front_words,
      "regions of the foreground"},
     {"segment_tau_m", KIND_NUMBER, AT(segment_tau_m), NULL, "eq. 4.4 threshold, metres"},
-    {"segment_diagonals", KIND_SWITCH, AT(segment_diagonals), switch_words,
-     "diagonal neighbours count too"},
-    {"segment_color_tau", KIND_NUMBER, AT(segment_color_tau), NULL,
-     "neighbours' most distance in HSV, 0 to 2; 0: depth alone"},
     {"min_region_points", KIND_COUNT, AT(min_region_points), NULL, "smaller regions are dropped"},
     {"region_capacity", KIND_COUNT, AT(region_capacity), NULL, "most regions of a frame"},
     {"depth_min_m", KIND_NUMBER, AT(depth_min_m), NULL, "nearer is too near, metres"},
@@ -212,11 +208,6 @@ static bool has_color_to_fill(const rlf_reconstruct_def *def)
     return def->enable_fill && def->rig.has_color;
 }
 
-static bool has_color(const rlf_reconstruct_def *def)
-{
-    return def->rig.has_color;
-}
-
 static bool is_average(const rlf_reconstruct_def *def)
 {
     return def->background_method == RLF_BACKGROUND_AVERAGE;
@@ -263,8 +254,6 @@ static const need needs[] = {
     {"foreground_sigmas", is_adaptive, "background_method=adaptive"},
     {"foreground_min_m", is_adaptive, "background_method=adaptive"},
     {"segment_tau_m", segments_as_thesis, "background_segment=thesis or foreground_segment=thesis"},
-    {"segment_diagonals", segments, "a background_segment or foreground_segment"},
-    {"segment_color_tau", has_color, "a colour picture"},
     {"min_region_points", segments, "a background_segment or foreground_segment"},
 };
 #define NEED_COUNT ((int)(sizeof(needs) / sizeof(needs[0])))

@@ -68,13 +68,8 @@ typedef struct rlf_reconstruct_def {
 
     rlf_segment_method background_segment; /* thesis: THESIS */
     rlf_segment_method foreground_segment; /* thesis: OFF (one person), or THESIS (several) */
-    double segment_tau_m;     /* eq. 4.4 threshold, metres (see docs/conventions.md for defaults) */
-    bool segment_diagonals;   /* 8-connected: compare diagonal neighbours too (all four kernels of
-                                 Abramov et al. 2012); default false: to the right and below only */
-    double segment_color_tau; /* neighbours must also be this near in colour: distance in the HSV
-                                 cone, 0..2, e.g. 0.15; 0 (default) = depth alone. Needs a rig with
-                                 colour; frames without it are segmented by depth alone */
-    bool enable_dilation;     /* fig. 4.12 */
+    double segment_tau_m; /* eq. 4.4 threshold, metres (see docs/conventions.md for defaults) */
+    bool enable_dilation; /* fig. 4.12 */
     int32_t min_region_points; /* smaller regions are dropped (label 0) */
     int32_t region_capacity;   /* most regions of one surface; further ones are dropped by size */
     bool keep_region_points;   /* fill region_points; the thesis collision needs it */

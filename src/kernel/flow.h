@@ -1,58 +1,8 @@
-/* Kernels of what moves: where it is a little later, and how far it came since the frame before. */
+/* Kernels of what moves: how far it came since the frame before. */
 #ifndef RLF_KERNEL_FLOW_H
 #define RLF_KERNEL_FLOW_H
 
 #include "kernel/kernel.h"
-
-/* ---- move_row.c: where what moves is a little later
- * --------------------------------------------- */
-
-typedef struct rlf_kernel_motion {
-    float dt;              /* s */
-    float fx, fy;          /* pixels: the step in the image is measured with them */
-    float least_z;         /* metres: nothing comes nearer */
-    int32_t width, height; /* of the image */
-} rlf_kernel_motion;
-
-/* A point in metres and its pixel. */
-typedef struct rlf_kernel_point {
-    float x, y, z, u, v;
-} rlf_kernel_point;
-
-/* The point after dt, with a velocity in m/s. */
-RLF_KERNEL_PART rlf_kernel_point rlf_kernel_move(const rlf_kernel_motion *m, rlf_kernel_point p,
-                                                 float vx, float vy, float vz)
-{
-    float x = p.x / p.z, y = p.y / p.z;
-    p.x += vx * m->dt;
-    p.y += vy * m->dt;
-    p.z += vz * m->dt;
-    p.z = p.z > m->least_z ? p.z : m->least_z;
-    p.u += (p.x / p.z - x) * m->fx;
-    p.v += (p.y / p.z - y) * m->fy;
-    return p;
-}
-
-/* Pixel of the point, < 0 out of view. */
-RLF_KERNEL_PART int32_t rlf_kernel_pixel_of(const rlf_kernel_motion *m, const rlf_kernel_point *p)
-{
-    bool is_inside = (p->u > -0.5f) & (p->v > -0.5f) & (p->u < (float)m->width - 0.5f) &
-                     (p->v < (float)m->height - 0.5f);
-    float u = is_inside ? p->u + 0.5f : 0.0f, v = is_inside ? p->v + 0.5f : 0.0f;
-    return is_inside ? (int32_t)v * m->width + (int32_t)u : -1;
-}
-
-/* From pixel (x, y) on. */
-typedef struct rlf_kernel_moving_row {
-    const uint8_t *foreground;
-    const float *depth, *ray_x, *ray_y, *velocity[3];
-    int32_t x, y, count;
-} rlf_kernel_moving_row;
-
-/* Where each pixel of the foreground that moves is after dt: its depth, and its pixel if `seen`,
- * a plane of the image, has no depth there; else, and for all other pixels, to = -1. */
-void rlf_kernel_move_row(const rlf_kernel_motion *motion, const rlf_kernel_moving_row *in,
-                         const float *restrict seen, float *restrict z, int32_t *restrict to);
 
 /* ---- flow_batch.c: samples of a surface, a frame ago, see surface/motion/cells.c
  * --------------------------------------------------- */

@@ -360,20 +360,13 @@ void rlf_kernel_still_row(const rlf_kernel_still *p, const uint8_t *restrict fro
  * ----------------------------------------------------------- */
 
 /* Bits of a pixel: it is a member, and it belongs together with the neighbour on that side. */
-enum {
-    RLF_LINK_MEMBER = 1,
-    RLF_LINK_LEFT = 2,
-    RLF_LINK_UP = 4,
-    RLF_LINK_UP_LEFT = 8,
-    RLF_LINK_UP_RIGHT = 16
-};
+enum { RLF_LINK_MEMBER = 1, RLF_LINK_LEFT = 2, RLF_LINK_UP = 4 };
 
 /* Neighbours belong together when their depths differ by at most sigmas sigma(z) + slope z +
- * step_m; diagonal ones may differ by sqrt(2) times the slope's part. */
+ * step_m. */
 typedef struct rlf_kernel_links {
     rlf_kernel_noise noise;
     float sigmas, slope, step_m;
-    bool diagonals;
 } rlf_kernel_links;
 
 /* A row and the one above; above the image: rows of zeros. What is left of the first pixel and

@@ -1,8 +1,6 @@
 /* Which neighbouring pixels belong together: one row against the one above it. */
 #include "kernel/kernel.h"
 
-static const float diagonal = 1.4142136f;
-
 RLF_KERNEL_PART int32_t is_member(const float *depth, const uint8_t *mask, int32_t i)
 {
     return (depth[i] > 0.0f ? 1 : 0) & (mask[i] != 0 ? 1 : 0);
@@ -25,24 +23,6 @@ RLF_KERNEL_PART uint8_t link_pixel(const rlf_kernel_links *p, const rlf_kernel_l
     return (uint8_t)(own * (RLF_LINK_MEMBER + beside * RLF_LINK_LEFT + up * RLF_LINK_UP));
 }
 
-RLF_KERNEL_PART uint8_t link_diagonals(const rlf_kernel_links *p, const rlf_kernel_links_in *in,
-                                       int32_t i)
-{
-    if (is_member(in->depth, in->mask, i) == 0) {
-        return 0;
-    }
-    float z = in->depth[i];
-    float limit = p->sigmas * rlf_kernel_sigma(p->noise, z) + diagonal * p->slope * z + p->step_m;
-    int32_t links = 0;
-    if (i > 0 && is_member(in->above, in->mask_above, i - 1)) {
-        links |= is_near(z, in->above[i - 1], limit) ? RLF_LINK_UP_LEFT : 0;
-    }
-    if (i + 1 < in->count && is_member(in->above, in->mask_above, i + 1)) {
-        links |= is_near(z, in->above[i + 1], limit) ? RLF_LINK_UP_RIGHT : 0;
-    }
-    return (uint8_t)links;
-}
-
 RLF_KERNEL void rlf_kernel_link_row(const rlf_kernel_links *params, const rlf_kernel_links_in *in,
                                     uint8_t *restrict links)
 {
@@ -53,9 +33,6 @@ RLF_KERNEL void rlf_kernel_link_row(const rlf_kernel_links *params, const rlf_ke
     }
     for (int32_t i = 1; i < row.count; i++) {
         links[i] = link_pixel(&p, &row, i, i - 1);
-    }
-    for (int32_t i = 0; i < row.count && p.diagonals; i++) {
-        links[i] = (uint8_t)(links[i] | link_diagonals(&p, &row, i));
     }
 }
 

@@ -126,7 +126,6 @@ rlf_result rlf_reconstruct_def_check(const rlf_reconstruct_def *def)
         {"background_segment", def->background_segment, RLF_SEGMENT_OFF, RLF_SEGMENT_OBJECTS},
         {"foreground_segment", def->foreground_segment, RLF_SEGMENT_OFF, RLF_SEGMENT_NOISE},
         {"segment_tau_m", def->segment_tau_m, 0, 1000},
-        {"segment_color_tau", def->segment_color_tau, 0, 2},
         {"min_region_points", def->min_region_points, 0, 1e9},
         {"region_capacity", def->region_capacity, 1, 4096},
         {"background_method", def->background_method, RLF_BACKGROUND_OFF, RLF_BACKGROUND_GIVEN},

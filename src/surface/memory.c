@@ -4,6 +4,21 @@
 
 #include <string.h>
 
+/* The rays of the kept pixels: eq. 4.1 without the factor z, undistorted, once per source. */
+static void fill_rays(const image_grid *grid, float *ray_x, float *ray_y, uint8_t *has_ray)
+{
+    for (int32_t y = 0; y < grid->height; y++) {
+        for (int32_t x = 0; x < grid->width; x++) {
+            int32_t i = y * grid->width + x;
+            rlf_vec3 ray;
+            bool inside = rlf_camera_unproject(&grid->camera, x, y, &ray);
+            has_ray[i] = inside;
+            ray_x[i] = inside ? (float)ray.x : 0.0f;
+            ray_y[i] = inside ? (float)ray.y : 0.0f;
+        }
+    }
+}
+
 static void take_grid(image_grid *grid, rlf_arena *arena)
 {
     size_t n = (size_t)grid->count;
@@ -11,7 +26,7 @@ static void take_grid(image_grid *grid, rlf_arena *arena)
     float *ray_y = arena_take(arena, n, sizeof(float));
     uint8_t *has_ray = arena_take(arena, n, 1);
     if (has_ray != NULL) {
-        image_grid_fill_rays(grid, ray_x, ray_y, has_ray);
+        fill_rays(grid, ray_x, ray_y, has_ray);
     }
     grid->ray_x = ray_x;
     grid->ray_y = ray_y;
@@ -50,7 +65,6 @@ static void take_work(rlf_work *work, rlf_arena *arena, const rlf_reconstruct_de
     for (int k = 0; k < 2; k++) {
         work->vote[k] = arena_take(arena, n + 1, sizeof(int32_t));
     }
-    work->color = arena_take(arena, n, sizeof(uint32_t));
     work->links = arena_take(arena, n, 1);
     work->component = arena_take(arena, n, sizeof(int32_t));
     work->front = arena_take(arena, (size_t)grid->height, sizeof(rlf_span));
@@ -62,7 +76,6 @@ static void take_work(rlf_work *work, rlf_arena *arena, const rlf_reconstruct_de
     work->zero_plane = arena_take(arena, n, sizeof(float));
     work->zero_labels = arena_take(arena, n, sizeof(int32_t));
     work->region_sums = arena_take(arena, (size_t)def->region_capacity + 1, sizeof(rlf_region_sum));
-    work->label_table = arena_take(arena, 4 * (size_t)def->region_capacity, sizeof(int32_t));
     work->zeros = arena_take(arena, width, sizeof(float));
     work->ones = arena_take(arena, width, 1);
     work->missing = arena_take(arena, width, 1);

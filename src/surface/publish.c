@@ -1,6 +1,6 @@
 /* What a frame has made, as the surface that is published. */
 #include "surface/steps.h"
-#include "surface/thickness/static.h"
+#include "surface/thickness/thickness.h"
 
 static int32_t count_foreground(const rlf_reconstruct *stage, const rlf_slot *slot)
 {

@@ -1,9 +1,8 @@
 /* The surface stage: one frame through all steps into the next slot of the ring. */
-#include "surface/depth/depth.h"
 #include "surface/motion/keyframe.h"
 #include "surface/objects/objects.h"
 #include "surface/steps.h"
-#include "surface/thickness/static.h"
+#include "surface/thickness/thickness.h"
 
 #include "base/cookie.h"
 #include "camera/checks.h"
@@ -97,13 +96,10 @@ static rlf_result check_frame(const rlf_reconstruct *stage, const rlf_frame *fra
 }
 
 /* What the background is, and with it the foreground. */
-static void find_background(rlf_reconstruct *stage, const rlf_frame *frame, const float *kept,
-                            rlf_slot *slot)
+static void find_background(rlf_reconstruct *stage, const float *kept, rlf_slot *slot)
 {
-    rlf_color_sample(stage, frame, slot->depth);
     rlf_sight_take(stage, slot);
     rlf_background_update(stage, kept, slot);
-    rlf_color_learn(stage, slot->foreground);
     rlf_stage_add_time(stage, RLF_SURFACE_BACKGROUND);
 }
 
@@ -111,7 +107,6 @@ static void find_motion(rlf_reconstruct *stage, rlf_slot *slot)
 {
     if (stage->def.enable_velocity) {
         rlf_velocity_estimate(stage, slot);
-        thin_keep_velocity(&stage->thin, stage->previous, &stage->grid, slot);
         rlf_stage_add_time(stage, RLF_SURFACE_VELOCITY);
     }
 }
@@ -142,7 +137,7 @@ static void make_surface(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slo
     depth_fill(stage, frame, work->kept, slot, work->was_seen);
     normals_complete(stage, slot, work->was_seen);
     /* What is not the background is the foreground; normals that differ by layer are known now. */
-    find_background(stage, frame, work->kept, slot);
+    find_background(stage, work->kept, slot);
     normals_finish(stage, work->kept, slot);
     /* Both layers fall into regions with labels that last. */
     segment_frame(stage, slot);

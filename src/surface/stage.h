@@ -7,22 +7,47 @@
 
 #include "kernel/kernel.h"
 #include "surface/background/state.h"
-#include "surface/depth/color_guide.h"
-#include "surface/depth/shadow.h"
 #include "surface/depth/state.h"
 #include "surface/motion/ego_motion.h"
 #include "surface/motion/state.h"
 #include "surface/normals/state.h"
-#include "surface/segment/state.h"
 #include "surface/thickness/state.h"
 #include "surface/thin/thin.h"
+
+/* A run of linked pixels of one row, the unit of segmentation. */
+typedef struct rlf_run {
+    int32_t x0, x1;
+    int32_t component; /* > 0, 0 = none; later the number of its region */
+} rlf_run;
+
+/* Runs in raster order; row y has first[y] <= r < first[y + 1]. */
+typedef struct rlf_runs {
+    rlf_run *run;
+    int32_t *first; /* height + 1 */
+} rlf_runs;
+
+/* A label that is in the picture or was until lately: see segment/region_track.c. */
+typedef struct rlf_track {
+    int32_t label;
+    rlf_aabb box; /* where it is expected: as large as when it was last seen whole */
+    rlf_vec3 velocity;
+    double depth;              /* of its centroid */
+    double points;             /* of it then, a little less each frame */
+    int64_t age_ns, hidden_ns; /* how long it was followed; how long it has not been seen */
+} rlf_track;
+
+typedef struct rlf_tracks {
+    rlf_track *item;
+    int32_t count, capacity;
+} rlf_tracks;
+
+void tracks_allocate(rlf_tracks *state, rlf_arena *arena, const rlf_reconstruct_def *def);
 
 /* What later steps of a frame, or those of the next one, go on with. */
 typedef struct rlf_work {
     float *raw;         /* plane: depth as it came */
     float *kept;        /* plane: as planes are fitted to it: recalled, averaged, with holes */
     uint8_t *was_seen;  /* plane: 1 where that had a depth before holes were filled */
-    uint32_t *color;    /* plane: of the frame, see segment/color.c */
     uint8_t *links;     /* plane of RLF_LINK_ bits */
     int32_t *component; /* plane */
     rlf_span *front;    /* per row: where the foreground may be; finished with the background */
@@ -39,7 +64,6 @@ typedef struct rlf_work {
     float *zero_plane;  /* published where there is no background */
     int32_t *zero_labels;
     struct rlf_region_sum *region_sums; /* region_capacity */
-    int32_t *label_table;               /* label table of segment/region_track.c */
 } rlf_work;
 
 struct rlf_reconstruct {
@@ -64,7 +88,6 @@ struct rlf_reconstruct {
     velocity_planes velocity;
     chord_planes chords;
     rlf_work work;
-    bool has_color;      /* work.color holds the frame's */
     bool has_components; /* work.runs holds the foreground's, so many: */
     int32_t component_count;
     rlf_surface_times *times; /* borrowed; NULL = not measured */
@@ -87,9 +110,6 @@ void rlf_stage_add_time(rlf_reconstruct *stage, rlf_surface_step step);
 /* memory.c: allocates all buffers of a stage whose def is set; false when memory is short. */
 bool rlf_stage_allocate(rlf_reconstruct *stage);
 void rlf_stage_release(rlf_reconstruct *stage);
-
-/* grid.c */
-void image_grid_fill_rays(const image_grid *grid, float *ray_x, float *ray_y, uint8_t *has_ray);
 
 /* Rows per chunk of a parallel loop: even, and a multiple of the normal tiles. */
 enum { RLF_ROW_GRAIN = 16 };

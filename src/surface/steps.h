@@ -6,6 +6,36 @@
 #include "kernel/batch.h"
 #include "surface/stage.h"
 
+/* ---- depth/frame.c: the steps in their order ---- */
+/* `raw`: depth as it came; `kept`: without mixed pixels. */
+void depth_read_frame(rlf_reconstruct *stage, const rlf_frame *frame, float *raw, float *kept,
+                      uint8_t *reason);
+/* Says where thin things must be though `kept` has nothing. */
+void depth_track_thin(rlf_reconstruct *stage, const float *kept, const rlf_slot *slot);
+/* In `kept` dropped pixels are recalled, and noise is averaged over time. */
+void depth_average(rlf_reconstruct *stage, const float *raw, float *kept, uint8_t *reason);
+/* Small holes of the slot's depth are filled. `was_seen`: 1 where there was a depth before. */
+void depth_fill(rlf_reconstruct *stage, const rlf_frame *frame, const float *kept, rlf_slot *slot,
+                uint8_t *was_seen);
+
+/* ---- depth/temporal_recall.c: dropped pixels from memory; `depth` holds what was seen ---- */
+/* Something has moved about pixel (x, y) lately, up to the frame before; false in the first frames,
+ * which cannot tell, and always true without averaging over time. */
+bool temporal_may_move(const rlf_reconstruct *stage, int32_t x, int32_t y);
+/* The next pixels of row y, from x on, of which that is true; x0 = x1 when there are none. */
+rlf_span temporal_next_moving(const rlf_reconstruct *stage, int32_t x, int32_t y);
+/* `raw`: the depth as it came. Pixels that are not recalled but believed after all are OK again. */
+void temporal_recall(const rlf_reconstruct *stage, const float *raw, float *depth, uint8_t *reason);
+
+/* ---- depth/temporal_mean.c: depth that does not change is averaged over time ---- */
+void temporal_mean(rlf_reconstruct *stage, float *depth, const uint8_t *reason);
+
+/* ---- depth/oversmooth.c ---- */
+/* Takes back where a plane has put pixels of `smooth` away from what was `seen` there and about
+ * them, and their normals: in blocks that may move. */
+void oversmooth_undo(const rlf_reconstruct *stage, const float *seen, float *smooth,
+                     float *const normal[3]);
+
 /* ---- depth/fill.c ---- */
 /* Fills gaps of at most RLF_FILL_GAP pixels between valid ones of the slot's depth. What shows the
  * background takes its normal too, where planes have been fitted to the others. `was_seen`:
@@ -26,18 +56,12 @@ bool vote_is_wanted(const rlf_reconstruct_def *def);
 /* What frames agree on at pixel i; NULL = nothing. */
 const rlf_vote *vote_at(const rlf_reconstruct *stage, ptrdiff_t i);
 /* What follows is not called when normals.vote.votes is NULL. */
-/* Seen pixels (`known` is 1) that vote take what leads, before others are completed from them;
- * after rlf_normals_crease. */
-void vote_lead(const rlf_reconstruct *stage, const rlf_slot *slot, const uint8_t *known);
 /* Counts this frame's votes. Normals of the background's pixels that vote become those that most
  * frames agree on, and so does the depth of those that were filled on another side. After
  * rlf_background_update. */
 void vote_normals(const rlf_reconstruct *stage, const rlf_slot *slot);
 /* The pixels from `first` on whose mark is not 0 vote from now on. */
 void vote_watch(const rlf_reconstruct *stage, ptrdiff_t first, const uint8_t *marks, int32_t count);
-/* Lags of a row by the normals that the frame before found itself, where they were outvoted. */
-void vote_lags(const rlf_reconstruct *stage, ptrdiff_t row, const rlf_kernel_lag_in *in,
-               int8_t *lag);
 
 /* ---- normals ---- */
 typedef struct rlf_normals_job {
@@ -59,8 +83,8 @@ typedef struct rlf_normals_job {
 rlf_normals_job rlf_normals_job_make(const rlf_reconstruct *stage, const float *depth,
                                      float *const out[3]);
 void rlf_normals_compute(const rlf_normals_job *job);
-void rlf_normals_faces(const rlf_normals_job *job);
-void rlf_normals_thesis(const rlf_normals_job *job);
+/* Six faces, four faces, and eq. 4.3. */
+void rlf_normals_local(const rlf_normals_job *job);
 void rlf_normals_slope(const rlf_normals_job *job);
 void rlf_normals_plane(const rlf_normals_job *job);
 /* The two halves of rlf_normals_plane: planes of what was seen, then normals of the other pixels of
@@ -78,9 +102,6 @@ void rlf_lasting_measure(rlf_reconstruct *stage, const float *depth);
 /* Exact inverse-depth normal of one pixel, for those that no plane explains. */
 void rlf_normals_slope_pixel(const rlf_normals_job *job, int32_t x, int32_t y);
 
-/* The normal that those about a pixel have for it; false, and nothing is written, when none. */
-bool rlf_normals_near_pixel(const rlf_normals_job *job, int32_t x, int32_t y, float out[3]);
-
 /* normals/contour.c: normals of pixels that were filled beside depth contours, and of seen ones
  * near contours of what moves; after rlf_fill_holes. `known`: 1 where depth was not filled. */
 void rlf_normals_contour(const rlf_reconstruct *stage, const rlf_slot *slot, const uint8_t *known,
@@ -90,7 +111,9 @@ void rlf_normals_contour(const rlf_reconstruct *stage, const rlf_slot *slot, con
  * rlf_fill_holes. */
 void rlf_normals_crease(const rlf_reconstruct *stage, const rlf_slot *slot, const uint8_t *known);
 
-/* ---- segment/components.c ---- */
+/* ---- segment/segment.c ---- */
+/* The member that stands for the set that a is in. */
+int32_t rlf_component_root(int32_t *parent, int32_t a);
 /* Connected components of the members of work.links, over their links, into work.runs; numbered
  * from 1 in raster order. work.size holds their pixel counts. `spans`: where the members of each
  * row are; NULL = anywhere. Returns their number. */
@@ -98,26 +121,12 @@ int32_t rlf_components_find(const rlf_reconstruct *stage, const rlf_span *spans)
 /* Runs of equal numbers of a plane, into work.runs. */
 void rlf_runs_find(rlf_reconstruct *stage, const int32_t *number);
 
-/* ---- segment/segment.c ---- */
 /* Writes work.links from depth and (when not NULL) the members' mask, within the spans. */
 void rlf_segment_links(const rlf_reconstruct *stage, rlf_segment_method method, const float *depth,
                        const uint8_t *mask, const rlf_span *spans);
-/* Eq. 4.4: 1 where a pixel is valid and within tau of its right and lower neighbours, and when
- * asked of the two lower diagonal ones. */
-void rlf_segment_thesis_bits(const image_grid *grid, double tau, bool diagonals, const float *depth,
+/* Eq. 4.4: 1 where a pixel is valid and within tau of its right and lower neighbours. */
+void rlf_segment_thesis_bits(const image_grid *grid, double tau, const float *depth,
                              const uint8_t *mask, uint8_t *bits);
-/* ---- segment/color.c ---- */
-/* Writes work.color, when colour is wanted and the frame has it. */
-void rlf_color_sample(rlf_reconstruct *stage, const rlf_frame *frame, const float *depth);
-/* Takes the colours of the background where it is seen. */
-void rlf_color_learn(rlf_reconstruct *stage, const uint8_t *foreground);
-/* In the HSV cone; colours are those of work.color. */
-bool rlf_color_is_near(uint32_t a, uint32_t b, double tau);
-/* Takes away the links between colours that are not near. */
-void rlf_color_cut_links(const rlf_reconstruct *stage, const uint32_t *color,
-                         const rlf_span *spans);
-
-/* ---- segment/segment.c ---- */
 /* Fig. 4.12: grows labels to the left and top over valid members without a label. */
 void rlf_segment_dilate(const image_grid *grid, double tau, const float *depth, const uint8_t *mask,
                         int32_t *label);
@@ -136,7 +145,6 @@ typedef struct rlf_layer_in {
     int32_t *kept;                 /* ... and a plane that nobody else wrote meanwhile */
     const uint8_t *mask;           /* members; NULL = every valid pixel */
     const rlf_span *spans;         /* where they are; NULL = anywhere */
-    const uint32_t *color;         /* NULL = depth alone tells them apart */
     bool has_components;           /* work.runs holds them already ... */
     int32_t component_count;       /* ... and so many */
     const int32_t *previous_label; /* labels of this layer one surface ago; NULL = none */
@@ -161,6 +169,8 @@ void rlf_layer_segment(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer
  * that have none around them stay as they are. */
 void rlf_region_adopt(rlf_reconstruct *stage, const float *depth, rlf_layer_out *out);
 
+/* The region has a run of row y, too. */
+void rlf_region_grow(rlf_region *region, const rlf_run *run, int32_t y);
 /* Writes the regions' labels where the runs are. */
 void rlf_region_write_labels(const rlf_reconstruct *stage, const rlf_layer_out *out,
                              int32_t *label);
@@ -224,6 +234,10 @@ void rlf_background_cover(rlf_reconstruct *stage, const float *kept, const rlf_s
                           bool is_learning);
 /* How far from z counts as another depth, metres. */
 float rlf_background_gate(const rlf_reconstruct_def *def, float z);
+/* The model of pixel i is z from now on, as if so many samples had shown it. */
+void background_put(rlf_reconstruct *stage, int32_t i, float z, uint8_t weight);
+/* Nothing is in front. */
+void background_clear_front(const rlf_reconstruct *stage, const rlf_slot *slot);
 /* Where the first and the last foreground pixel of a row are. */
 rlf_span rlf_background_span(const uint8_t *foreground, int32_t width);
 void rlf_background_reset(rlf_background *background, const image_grid *grid);

@@ -23,13 +23,13 @@ static void a_setting_reaches_its_field_alone(void **state)
     assert_int_equal(settings_add(&list, "fill=off"), RLF_OK);
     assert_int_equal(settings_add(&list, "background_method=average"), RLF_OK);
     assert_int_equal(settings_add(&list, "region_capacity=7"), RLF_OK);
-    assert_int_equal(settings_add(&list, "segment_color_tau=0.15"), RLF_OK);
+    assert_int_equal(settings_add(&list, "segment_tau_m=0.15"), RLF_OK);
     rlf_reconstruct_def def = def_of(RLF_PROFILE_LIVE), expected = def_of(RLF_PROFILE_LIVE);
     settings_apply(&list, &def);
     expected.enable_fill = false;
     expected.background_method = RLF_BACKGROUND_AVERAGE;
     expected.region_capacity = 7;
-    expected.segment_color_tau = 0.15;
+    expected.segment_tau_m = 0.15;
     assert_memory_equal(&def, &expected, sizeof def);
 }
 
@@ -53,7 +53,7 @@ static void what_has_no_effect_is_told(void **state)
     assert_non_null(settings_need("foreground_threshold_m=0.1", &live));
     assert_null(settings_need("foreground_sigmas=5", &live));
     assert_non_null(settings_need("absorb_after_s=5", &thesis));
-    assert_non_null(settings_need("segment_color_tau=0.1", &live)); /* the rig has no colour */
+    assert_non_null(settings_need("color_sides=on", &live)); /* the rig has no colour */
     assert_null(settings_need("hold=off", &live));
     live.enable_steadying = false;
     assert_non_null(settings_need("hold=on", &live));

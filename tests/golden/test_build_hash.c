@@ -12,7 +12,7 @@
 #define STEPS 90
 #define HEAP 40
 
-static const golden room = {RLF_PROFILE_LIVE, 0xbcd3e2b91f8bcc9du, 0xb1514b4fddf6a5a8u,
+static const golden room = {RLF_PROFILE_LIVE, 0xa0b43b4c2dfe5d38u, 0xb1514b4fddf6a5a8u,
                             0xf0f142566f288f78u};
 static const uint64_t heap = 0x3be1d0738736a68eu;
 

@@ -162,49 +162,6 @@ static void flow_residuals_are_distances(void **state)
     }
 }
 
-/* A foreground of points, some of them at rest, not seen or on their way out of view. */
-static void move_row_is_its_definition(void **state)
-{
-    (void)state;
-    enum { WIDTH = 80, HEIGHT = 20 };
-    analytic_random r = {11};
-    static float seen[WIDTH * HEIGHT];
-    for (int32_t i = 0; i < WIDTH * HEIGHT; i++) {
-        seen[i] = random_uniform(&r) < 0.5 ? 0.0f : 2.0f;
-    }
-    const rlf_kernel_motion motion = {0.1f, 100.0f, 90.0f, 0.1f, WIDTH, HEIGHT};
-    for (int32_t count = 1; count <= LONGEST; count++) {
-        float value[6][LONGEST], z[LONGEST]; /* depth, rays, velocity */
-        uint8_t foreground[LONGEST];
-        int32_t to[LONGEST];
-        for (int32_t i = 0; i < count; i++) {
-            for (int k = 0; k < 6; k++) {
-                value[k][i] = (float)(2.0 * random_uniform(&r) - 1.0);
-            }
-            bool rests = i % 5 == 0;
-            value[0][i] = i % 7 == 0 ? 0.0f : 1.0f + value[0][i] * value[0][i];
-            value[3][i] = rests ? 0.0f : value[3][i];
-            value[4][i] = rests ? 0.0f : value[4][i];
-            value[5][i] = rests ? 0.0f : value[5][i];
-            foreground[i] = i % 3 != 0;
-        }
-        const rlf_kernel_moving_row in = {
-            foreground, value[0], value[1], value[2], {value[3], value[4], value[5]}, 6, 9, count};
-        rlf_kernel_move_row(&motion, &in, seen, z, to);
-        for (int32_t i = 0; i < count; i++) {
-            bool moves = i % 5 != 0 && i % 7 != 0 && i % 3 != 0;
-            double depth = value[0][i], rx = value[1][i], ry = value[2][i];
-            double after = depth + 0.1 * value[5][i];
-            double u = 6 + i + 100.0 * ((depth * rx + 0.1 * value[3][i]) / after - rx) + 0.5;
-            double v = 9 + 90.0 * ((depth * ry + 0.1 * value[4][i]) / after - ry) + 0.5;
-            bool is_in = u > 0.0 && v > 0.0 && u < WIDTH && v < HEIGHT;
-            int32_t pixel = is_in ? (int32_t)v * WIDTH + (int32_t)u : -1;
-            assert_int_equal(to[i], moves && is_in && !(seen[pixel] > 0.0f) ? pixel : -1);
-            assert_true(to[i] < 0 || near_enough(z[i], (float)after, 1e-5f));
-        }
-    }
-}
-
 /* The definition: pixels that are the region's, and those of them that are where they were. */
 static void count_rest(const rlf_kernel_rest_in *in, int32_t out[2])
 {
@@ -304,7 +261,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(spread_row_is_its_definition),
         cmocka_unit_test(flow_row_is_its_definition),
-        cmocka_unit_test(move_row_is_its_definition),
         cmocka_unit_test(rest_count_is_its_definition),
         cmocka_unit_test(knots_are_their_definition),
         cmocka_unit_test(flow_residuals_are_distances),

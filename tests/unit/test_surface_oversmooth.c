@@ -7,7 +7,6 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "surface/depth/depth.h"
 #include "surface/steps.h"
 
 #include <string.h>

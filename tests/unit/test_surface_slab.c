@@ -211,9 +211,9 @@ static double most(const double v[3])
 /* How far p = z (u, v, 1) is beyond the faces of the box along each axis, metres. */
 static double beyond_faces(const slab_view *box, double u, double v, double z)
 {
-    const rlf_vec3 at = slab_local(box, rlf_vec3_make(z * u, z * v, z));
-    const double beyond[3] = {fabs(at.x) - box->half[0], fabs(at.y) - box->half[1],
-                              fabs(at.z) - box->half[2]};
+    const slab_point at = slab_local(box, rlf_vec3_make(z * u, z * v, z));
+    const double beyond[3] = {fabs(at.q[0]) - box->half[0], fabs(at.q[1]) - box->half[1],
+                              fabs(at.q[2]) - box->half[2]};
     return most(beyond);
 }
 

@@ -162,53 +162,9 @@ static void a_gap_does_not_keep_it(void **state)
     assert_int_equal(off, 0);
 }
 
-/* By itself: a stripe 4 pixels wide that moved to the right is expected where nothing is seen, and
- * only there; what is as wide as an arm, or rests, is not. */
-static void what_is_narrow_and_moves_is_expected(void **state)
-{
-    enum { Y = 50, STRIPE = 4, STEP = 6 };
-    staged_view *f = *state;
-    rlf_reconstruct_reset(f->stage);
-    set_book(f, -1e3);
-    process(f, 0, false);
-    const rlf_slot *before = f->stage->previous;
-    const double speed = 2.0 * STEP * 30.0 / f->view.rig.depth.fx; /* m/s at 2 m */
-    const int32_t first[3] = {100, 200, 300}, wide[3] = {STRIPE, 30, STRIPE};
-    for (int32_t n = 0; n < 3 * HEIGHT;
-         n++) { /* one that moves, a wide one that does, one that rests */
-        const int32_t k = n % 3, row = n / 3 * WIDTH;
-        for (int32_t i = row + first[k]; i < row + first[k] + wide[k]; i++) {
-            before->foreground[i] = 1;
-            before->depth[i] = 2.0f;
-            before->velocity[0][i] = k < 2 ? (float)speed : 0.0f;
-        }
-        before->moved[n / 3] = (rlf_span){100, 304};
-    }
-    static float depth[COUNT];
-    for (int32_t i = 0; i < COUNT; i++) {
-        depth[i] = i / WIDTH == Y && i % WIDTH == 107 ? 4.0f : 0.0f;
-    }
-    const thin_in in = {.grid = &f->stage->grid,
-                        .noise = &f->view.rig.noise,
-                        .before = before,
-                        .dt = 1.0f / 30.0f,
-                        .depth = depth};
-    thin_track(&in, &f->stage->thin);
-    for (int32_t x = 0; x < WIDTH; x++) {
-        bool is_there = x >= 100 + STEP && x < 100 + STEP + STRIPE && x != 107;
-        assert_int_equal(thin_is_expected(&f->stage->thin, Y * WIDTH + x), is_there);
-    }
-    const int32_t to_ends[2] = {3, 3};
-    const ptrdiff_t lost = Y * WIDTH + 108;
-    assert_true(thin_find_lost(&f->stage->thin, lost, 1, to_ends, 4.0f) == 2.0f);
-    assert_true(thin_find_lost(&f->stage->thin, lost, 1, to_ends, 2.0f) == 0.0f); /* before it */
-    assert_true(thin_find_lost(&f->stage->thin, Y * WIDTH + 303, 1, to_ends, 4.0f) == 0.0f);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_narrow_and_moves_is_expected),
         cmocka_unit_test(what_has_turned_away_is_remembered),
         cmocka_unit_test(what_is_lost_is_still_there),
         cmocka_unit_test(what_has_left_is_gone_at_once),

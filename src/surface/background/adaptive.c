@@ -7,13 +7,12 @@
  * again. */
 #include "surface/motion/keyframe.h"
 #include "surface/steps.h"
-#include "surface/window.h"
 
 #include "kernel/kernel.h"
 
 #include <string.h>
 
-enum { LONGEST_STEP_MS = 200, CHUNK = 128 };
+enum { LONGEST_STEP_MS = 200 };
 
 typedef struct model_job {
     const rlf_reconstruct *stage;
@@ -90,17 +89,11 @@ static int32_t step_ms(const rlf_reconstruct *stage, const rlf_slot *slot)
 
 static void replace(rlf_reconstruct *stage, int32_t i, float z)
 {
-    rlf_background *background = &stage->background;
-    background->mean[i] = z;
-    background->deviation[i] = 0.0f;
-    background->weight[i] = RLF_STILL_WEIGHT;
-    background->beyond[i] = 0;
-    background->still_ms[i] = 0;
-    if (background->depart.left != NULL) {
-        background->depart.left[i] = 0;
+    background_put(stage, i, z, RLF_STILL_WEIGHT);
+    stage->background.still_ms[i] = 0;
+    if (stage->background.depart.left != NULL) {
+        stage->background.depart.left[i] = 0;
     }
-    background_image_changed(background, &stage->grid, i % stage->grid.width, i / stage->grid.width,
-                             1);
 }
 
 static rlf_kernel_still still_of(const rlf_reconstruct *stage, const rlf_slot *slot)
@@ -119,7 +112,6 @@ static void absorb_pixel(rlf_reconstruct *stage, int32_t i)
     float beneath = background->beneath[i];
     bool has_left = background->depart.left != NULL && background->depart.left[i];
     background->beneath[i] = beneath > 0.0f || has_left ? beneath : background->mean[i];
-    background->hides[i / stage->grid.width] = 1;
     replace(stage, i, background->still[i]);
 }
 
@@ -140,9 +132,9 @@ static void absorb_row(rlf_reconstruct *stage, const rlf_slot *slot, const rlf_k
                        int32_t y, rlf_span span)
 {
     rlf_background *background = &stage->background;
-    for (int32_t x = span.x0; x < span.x1; x += CHUNK) {
-        uint8_t is_due[CHUNK];
-        int32_t i = y * stage->grid.width + x, count = rlf_least(CHUNK, span.x1 - x);
+    for (int32_t x = span.x0; x < span.x1; x += RLF_PART) {
+        uint8_t is_due[RLF_PART];
+        int32_t i = y * stage->grid.width + x, count = rlf_least(RLF_PART, span.x1 - x);
         rlf_kernel_still_row(p, slot->foreground + i, slot->depth + i, count, background->still + i,
                              background->still_ms + i, is_due);
         for (int32_t k = 0; (k = rlf_kernel_next_mark(is_due, k, count)) < count; k++) {
@@ -165,29 +157,21 @@ static void absorb(rlf_reconstruct *stage, const rlf_slot *slot)
     }
 }
 
-/* Takes back what is hidden in one row where it is seen again; true while any is left. */
-static bool restore_row(rlf_reconstruct *stage, const rlf_slot *slot, int32_t y)
-{
-    rlf_background *background = &stage->background;
-    bool any = false;
-    for (int32_t i = y * stage->grid.width; i < (y + 1) * stage->grid.width; i++) {
-        float z = slot->depth[i], beneath = background->beneath[i];
-        any = any || beneath > 0.0f;
-        bool is_past = beneath > 0.0f && slot->foreground[i] == RLF_SEEN_PAST;
-        if (is_past && rlf_kernel_abs(z - beneath) <= rlf_background_gate(&stage->def, z)) {
-            replace(stage, i, beneath);
-            background->beneath[i] = 0.0f;
-            slot->foreground[i] = RLF_SEEN_BACKGROUND;
-        }
-    }
-    return any;
-}
-
+/* What an absorbed thing hid, where it is seen again. */
 static void restore(rlf_reconstruct *stage, const rlf_slot *slot)
 {
+    rlf_background *background = &stage->background;
     for (int32_t y = 0; y < stage->grid.height; y++) {
-        if (stage->background.hides[y]) {
-            stage->background.hides[y] = restore_row(stage, slot, y);
+        const rlf_span span = stage->work.front[y];
+        for (int32_t i = y * stage->grid.width + span.x0; i < y * stage->grid.width + span.x1;
+             i++) {
+            float z = slot->depth[i], beneath = background->beneath[i];
+            if (slot->foreground[i] == RLF_SEEN_PAST && beneath > 0.0f &&
+                rlf_kernel_abs(z - beneath) <= rlf_background_gate(&stage->def, z)) {
+                replace(stage, i, beneath);
+                background->beneath[i] = 0.0f;
+                slot->foreground[i] = RLF_SEEN_BACKGROUND;
+            }
         }
     }
 }
@@ -200,7 +184,7 @@ void background_find_front(rlf_reconstruct *stage, const rlf_slot *slot)
     const rlf_span *spans = stage->work.front;
     rlf_segment_links(stage, RLF_SEGMENT_NOISE, slot->depth, slot->foreground, spans);
     stage->component_count = rlf_components_find(stage, spans);
-    stage->has_components = stage->def.foreground_segment == RLF_SEGMENT_NOISE && !stage->has_color;
+    stage->has_components = stage->def.foreground_segment == RLF_SEGMENT_NOISE;
     rlf_background_decide_unknown(stage, slot);
 }
 
@@ -237,8 +221,7 @@ void rlf_background_adaptive_update(rlf_reconstruct *stage, const float *kept, r
         background->frames++;
     }
     if (learning) {
-        memset(slot->foreground, 0, (size_t)stage->grid.count);
-        memset(stage->work.front, 0, (size_t)stage->grid.height * sizeof *stage->work.front);
+        background_clear_front(stage, slot);
     }
     if (learning && background->frames < def->background_frames) {
         rlf_background_cover(stage, kept, slot, true);

@@ -65,8 +65,7 @@ static void keep(rlf_reconstruct *stage, const rlf_slot *slot)
         stage->def.background_method != RLF_BACKGROUND_OFF) {
         background->state = RLF_BACKGROUND_LEARNING;
     }
-    memset(slot->foreground, 0, (size_t)stage->grid.count);
-    memset(stage->work.front, 0, (size_t)stage->grid.height * sizeof *stage->work.front);
+    background_clear_front(stage, slot);
 }
 
 void rlf_background_update(rlf_reconstruct *stage, const float *kept, rlf_slot *slot)
@@ -112,8 +111,6 @@ void background_allocate(rlf_background *background, rlf_arena *arena,
     background->still_ms = arena_take(arena, n, sizeof(uint16_t));
     background->beneath = arena_take(arena, n, sizeof(float));
     background->standing = arena_take(arena, (size_t)grid->height, sizeof(rlf_span));
-    background->color = arena_take(arena, n, sizeof(uint32_t));
-    background->hides = arena_take(arena, (size_t)grid->height, 1);
     size_t tiles = (size_t)background_image_tiles(grid);
     background->row_changes = arena_take(arena, tiles * BACKGROUND_TILE, sizeof(int32_t));
     background->changes = arena_take(arena, tiles, sizeof(int32_t));
@@ -126,7 +123,6 @@ void background_allocate(rlf_background *background, rlf_arena *arena,
     }
     arena_next_owner(arena);
     background->seen = arena_lend(arena, n, 1);
-    background->empty = arena_lend(arena, n, 1);
     background->up = arena_lend(arena, n, sizeof(int32_t));
     if (static_is_wanted(def)) {
         background->depart.thing = arena_take(arena, n, 1);

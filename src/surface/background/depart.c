@@ -16,14 +16,6 @@ enum {
 
 static const float own_sigmas = 1.2533141f; /* per mean deviation: sqrt(pi / 2) */
 
-static void widen(rlf_rect *w, int32_t x, int32_t y)
-{
-    w->x0 = x < w->x0 ? x : w->x0;
-    w->x1 = x + 1 > w->x1 ? x + 1 : w->x1;
-    w->y0 = y < w->y0 ? y : w->y0;
-    w->y1 = y + 1;
-}
-
 /* Extent and size of each thing. */
 static void measure_things(const image_grid *grid, rlf_depart *depart)
 {
@@ -35,7 +27,7 @@ static void measure_things(const image_grid *grid, rlf_depart *depart)
         const uint8_t *row = depart->thing + (ptrdiff_t)y * grid->width;
         int32_t x = rlf_kernel_next_mark(row, 0, grid->width);
         for (; x < grid->width; x = rlf_kernel_next_mark(row, x + 1, grid->width)) {
-            widen(&depart->extent[row[x]], x, y);
+            rlf_rect_add(&depart->extent[row[x]], x, y);
             depart->size[row[x]]++;
         }
     }
@@ -139,11 +131,8 @@ static void leave(rlf_reconstruct *stage, rlf_slot *slot, int32_t i)
     float z = slot->depth[i];
     bool is_lost = is_past(stage, z, i);
     background->depart.left[i] = !is_lost;
-    background->mean[i] = z > 0.0f ? z : background->mean[i];
-    background->weight[i] = is_lost ? 1 : RLF_LEFT_WEIGHT;
-    background->deviation[i] = 0.0f;
-    background->beyond[i] = 0;
     background->beneath[i] = 0.0f;
+    background_put(stage, i, z > 0.0f ? z : background->mean[i], is_lost ? 1 : RLF_LEFT_WEIGHT);
     forget_sides(stage, i);
     slot->foreground[i] = !is_lost && z > 0.0f ? RLF_SEEN_FOREGROUND : slot->foreground[i];
 }

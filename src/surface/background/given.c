@@ -12,8 +12,7 @@ static void give_up(rlf_reconstruct *stage, const rlf_slot *slot)
 {
     stage->background.state = RLF_BACKGROUND_NONE;
     stage->background.is_stale = true;
-    memset(slot->foreground, 0, (size_t)stage->grid.count);
-    memset(stage->work.front, 0, (size_t)stage->grid.height * sizeof *stage->work.front);
+    background_clear_front(stage, slot);
 }
 
 /* The oldest image, which no valid surface refers to, becomes the newest. */

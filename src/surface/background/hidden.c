@@ -8,10 +8,8 @@
  *
  * Its depth and normal are those of the thing's pixels that the row and the column meet, the nearer
  * ones counting more. */
-#include "surface/depth/shadow.h"
 #include "surface/depth_step.h"
 #include "surface/steps.h"
-#include "surface/window.h"
 
 #include "kernel/kernel.h"
 
@@ -24,7 +22,6 @@ enum {
     DOWN,
     WAYS,
     SELDOM = 64, /* of 255: a pixel without depth in fewer frames has it as a rule */
-    MIXED = 2,   /* pixels that drivers drop beside an edge */
     LEARN_SHIFT = 2,
     LEARN_ROWS = 4,
     LEAST_SEEN = 3 /* samples of a background pixel that is known */
@@ -37,55 +34,28 @@ typedef struct hidden_job {
     const rlf_slot *slot;
     const float *seen;  /* plane: depth before holes were filled */
     rlf_rect area;      /* where something in front may hide a pixel; empty while learning */
-    uint8_t *empty;     /* plane: 1 where there is no depth */
     int32_t *up, *down; /* planes: nearest pixel with depth in the column, < 0 = none */
     uint8_t *busy;      /* plane: not 0 where a thing may be why nothing returns */
     depth_step step;
     bool is_learning;
 } hidden_job;
 
-RLF_KERNEL static void mark_empty(const float *restrict depth, const uint8_t *restrict reason,
-                                  int32_t count, uint8_t *restrict empty)
+static bool is_empty(const hidden_job *job, int32_t i)
 {
-    for (int32_t i = 0; i < count; i++) {
-        int32_t is_lost = (reason[i] == RLF_REASON_NO_RETURN) | (reason[i] == RLF_REASON_FLYING);
-        empty[i] = (uint8_t)(is_lost & (depth[i] > 0.0f ? 0 : 1));
-    }
-}
-
-static void find_empty(void *context, int32_t begin, int32_t end, int32_t worker)
-{
-    (void)worker;
-    const hidden_job *job = context;
-    int32_t width = job->stage->grid.width;
-    ptrdiff_t at = (ptrdiff_t)begin * width;
-    mark_empty(job->slot->depth + at, job->slot->reason + at, (end - begin) * width,
-               job->empty + at);
-}
-
-/* Where the next row is empty, what is met from there. */
-RLF_KERNEL static void step_row(const uint8_t *restrict empty, const int32_t *restrict beside,
-                                int32_t first, int32_t count, int32_t *restrict hit)
-{
-    for (int32_t x = 0; x < count; x++) {
-        hit[x] = empty[x] != 0 ? beside[x] : first + x;
-    }
+    const uint8_t reason = job->slot->reason[i];
+    return (reason == RLF_REASON_NO_RETURN || reason == RLF_REASON_FLYING) &&
+           !(job->slot->depth[i] > 0.0f);
 }
 
 /* Finds `hit` of a row from the row `step` pixels away, which is done; outside there is none. */
-static void look_beside(const hidden_job *job, int32_t y, ptrdiff_t step, int32_t *hit)
+static void look_beside(const hidden_job *job, int32_t y, int32_t step, int32_t *hit)
 {
     const image_grid *grid = &job->stage->grid;
-    ptrdiff_t row = (ptrdiff_t)y * grid->width, beside = row + step;
-    if (beside < 0 || beside >= grid->count) {
-        for (int32_t x = job->area.x0; x < job->area.x1; x++) {
-            hit[row + x] = -1;
-        }
-        return;
+    for (int32_t x = job->area.x0; x < job->area.x1; x++) {
+        int32_t i = y * grid->width + x, beside = i + step;
+        bool is_in = beside >= 0 && beside < grid->count;
+        hit[i] = is_in && is_empty(job, beside) ? hit[beside] : is_in ? beside : -1;
     }
-    int32_t x0 = job->area.x0;
-    step_row(job->empty + beside + x0, hit + beside + x0, (int32_t)beside + x0, job->area.x1 - x0,
-             hit + row + x0);
 }
 
 /* The pixels with depth that are met from an empty one. */
@@ -158,7 +128,7 @@ static bool is_at_edge(const hidden_job *job, const hits *h)
         bool is_between = h->at[k] >= 0 && h->at[k + 1] >= 0;
         int32_t edges = is_front(job, h->at[k]) || is_front(job, h->at[k + 1]) ? 1 : 2;
         float wide = h->away[k] + h->away[k + 1] - 1.0f;
-        if (is_between && wide <= (float)(edges * 2 * MIXED + edges - 1)) {
+        if (is_between && wide <= (float)(edges * 2 * RLF_SHADOW_MIXED + edges - 1)) {
             return true;
         }
     }
@@ -222,13 +192,13 @@ static void cover(const hidden_job *job, int32_t i, const hits *h)
 enum { BUSY = 1, HIDDEN = RLF_COVERED };
 
 /* The run of empty pixels of a row that x is in. */
-static rlf_span find_run(const uint8_t *empty, int32_t width, int32_t x)
+static rlf_span find_run(const hidden_job *job, int32_t row, int32_t x)
 {
     rlf_span run = {x, x + 1};
-    while (run.x0 > 0 && empty[run.x0 - 1] != 0) {
+    while (run.x0 > 0 && is_empty(job, row + run.x0 - 1)) {
         run.x0--;
     }
-    while (run.x1 < width && empty[run.x1] != 0) {
+    while (run.x1 < job->stage->grid.width && is_empty(job, row + run.x1)) {
         run.x1++;
     }
     return run;
@@ -246,11 +216,14 @@ static bool is_beside_front(const hidden_job *job, int32_t i, rlf_span run, int3
 /* Of the empty pixels of a row within the area: whether they are hidden. */
 static void decide_row(const hidden_job *job, int32_t y)
 {
-    int32_t width = job->stage->grid.width, row = y * width, end = job->area.x1;
-    const uint8_t *empty = job->empty + row;
+    int32_t row = y * job->stage->grid.width, end = job->area.x1;
+    const uint8_t *reason = job->slot->reason + row; /* 0 = OK */
     rlf_span run = {0, 0};
-    for (int32_t x = job->area.x0; (x = rlf_kernel_next_mark(empty, x, end)) < end; x++) {
-        run = x < run.x1 ? run : find_run(empty, width, x);
+    for (int32_t x = job->area.x0; (x = rlf_kernel_next_mark(reason, x, end)) < end; x++) {
+        if (!is_empty(job, row + x)) {
+            continue;
+        }
+        run = x < run.x1 ? run : find_run(job, row, x);
         if (is_beside_front(job, row + x, run, row)) {
             hits h = look_about(job, x, y, run);
             job->busy[row + x] = is_hidden(job, row + x, &h) ? HIDDEN : BUSY;
@@ -266,7 +239,7 @@ static void cover_row(const hidden_job *job, int32_t y)
     rlf_span run = {0, 0}, *front = &job->stage->work.front[y];
     for (int32_t x = 0; (x = rlf_kernel_next_mark(busy, x, width)) < width; x++) {
         if (busy[x] == HIDDEN) {
-            run = x < run.x1 ? run : find_run(job->empty + row, width, x);
+            run = x < run.x1 ? run : find_run(job, row, x);
             const hits h = look_about(job, x, y, run);
             cover(job, row + x, &h);
             *front = rlf_span_unite(*front, (rlf_span){x, x + 1});
@@ -329,15 +302,11 @@ void rlf_background_cover(rlf_reconstruct *stage, const float *kept, const rlf_s
                       .slot = slot,
                       .seen = kept,
                       .area = is_learning ? (rlf_rect){0, 0, 0, 0} : find_area(stage),
-                      .empty = stage->background.empty,
                       .up = stage->background.up,
                       .down = stage->work.map,
                       .busy = stage->background.covered,
                       .step = depth_step_make(&stage->def.rig.noise, grid->camera.fx),
                       .is_learning = is_learning};
-    if (job.area.y0 < job.area.y1) {
-        rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, find_empty, &job);
-    }
     for (int32_t y = 0; y < job.area.y1; y++) {
         look_beside(&job, y, -grid->width, job.up);
     }

@@ -15,14 +15,14 @@
 enum {
     MARGIN = 12, /* pixels around a tile that its normals depend on; even */
     CROP = BACKGROUND_TILE + 2 * MARGIN,
-    PARTS = 24,           /* of the tiles are made per frame, one ... */
-    PARTS_URGENT = 5,     /* ... or, when a thing has left, one of so many */
-    CHANGES = 30,         /* replaced pixels that make a new image ... */
-    FRAMES = 10,          /* ... after at least this many frames */
-    CHANGES_URGENT = 400, /* replaced pixels that make one at once: a thing has left */
-    FRAMES_LONG = 30,     /* after this many any change does */
-    SHOWN_FRAMES = 10,    /* so many show what the first few did not, beside outlines ... */
-    REFINED_FRAMES = 40   /* ... and so many make a mean much better */
+    PARTS = 24,            /* of the tiles are made per frame, one ... */
+    PARTS_URGENT = 5,      /* ... or, when a thing has left, one of so many */
+    CHANGES = 30,          /* replaced pixels that make a new image ... */
+    FRAMES = 10,           /* ... after at least this many frames */
+    CHANGES_URGENT = 400,  /* replaced pixels that make one at once: a thing has left */
+    FRAMES_LONG = 30,      /* after this many any change does */
+    SHOWN_FRAMES = FRAMES, /* so many show what the first few did not, beside outlines ... */
+    REFINED_FRAMES = 40    /* ... and so many make a mean much better */
 };
 
 const background_image *background_image_newest(const rlf_reconstruct *stage)
@@ -55,37 +55,45 @@ void background_image_changed(rlf_background *background, const image_grid *grid
     background->changed += count;
 }
 
+void background_put(rlf_reconstruct *stage, int32_t i, float z, uint8_t weight)
+{
+    rlf_background *background = &stage->background;
+    const int32_t width = stage->grid.width;
+    background->mean[i] = z;
+    background->deviation[i] = 0.0f;
+    background->weight[i] = weight;
+    background->beyond[i] = 0;
+    background_image_changed(background, &stage->grid, i % width, i / width, 1);
+}
+
 static rlf_rect tile_at(const image_grid *grid, int32_t tile)
 {
     int32_t x0 = tile % tile_columns(grid) * BACKGROUND_TILE;
     int32_t y0 = tile / tile_columns(grid) * BACKGROUND_TILE;
-    int32_t x1 = x0 + BACKGROUND_TILE, y1 = y0 + BACKGROUND_TILE;
-    const rlf_rect r = {x0, y0, x1 < grid->width ? x1 : grid->width,
-                        y1 < grid->height ? y1 : grid->height};
-    return r;
+    return (rlf_rect){x0, y0, rlf_least(x0 + BACKGROUND_TILE, grid->width),
+                      rlf_least(y0 + BACKGROUND_TILE, grid->height)};
 }
 
 static rlf_rect widen(const image_grid *grid, rlf_rect r)
 {
-    const rlf_rect wide = {r.x0 > MARGIN ? r.x0 - MARGIN : 0, r.y0 > MARGIN ? r.y0 - MARGIN : 0,
-                           r.x1 + MARGIN < grid->width ? r.x1 + MARGIN : grid->width,
-                           r.y1 + MARGIN < grid->height ? r.y1 + MARGIN : grid->height};
-    return wide;
+    return (rlf_rect){r.x0 > MARGIN ? r.x0 - MARGIN : 0, r.y0 > MARGIN ? r.y0 - MARGIN : 0,
+                      rlf_least(r.x1 + MARGIN, grid->width),
+                      rlf_least(r.y1 + MARGIN, grid->height)};
 }
 
-/* Copies r from a plane of width `from_width` whose corner is at (from_x, from_y) to another. */
-static void copy_part(rlf_rect r, const float *from, int32_t from_x, int32_t from_y,
-                      int32_t from_width, float *to, int32_t to_x, int32_t to_y, int32_t to_width)
+/* Copies r between planes of parts of the image. */
+static void copy_part(rlf_rect r, const float *from, rlf_rect of_from, float *to, rlf_rect of_to)
 {
     for (int32_t y = r.y0; y < r.y1; y++) {
-        memcpy(to + (ptrdiff_t)(y - to_y) * to_width + r.x0 - to_x,
-               from + (ptrdiff_t)(y - from_y) * from_width + r.x0 - from_x,
+        memcpy(to + (ptrdiff_t)(y - of_to.y0) * (of_to.x1 - of_to.x0) + r.x0 - of_to.x0,
+               from + (ptrdiff_t)(y - of_from.y0) * (of_from.x1 - of_from.x0) + r.x0 - of_from.x0,
                (size_t)(r.x1 - r.x0) * sizeof *to);
     }
 }
 
-static void tile_is_made(rlf_background *background, int32_t tile, bool is_new)
+static void tile_is_made(rlf_background *background, int32_t tile)
 {
+    const bool is_new = background->changes[tile] >= CHANGES;
     background->version[tile] = background->next_version;
     background->changed -= background->changes[tile];
     background->changes[tile] = 0;
@@ -191,26 +199,26 @@ static void make_tile(rlf_reconstruct *stage, const rlf_slot *slot, background_i
 {
     const image_grid *grid = &stage->grid;
     const rlf_rect r = tile_at(grid, tile), wide = widen(grid, r);
-    int32_t width = wide.x1 - wide.x0;
+    const rlf_rect whole = {0, 0, grid->width, grid->height};
     float *const *crop = stage->background.crop;
     const float *const from[3] = {stage->background.mean, grid->ray_x, grid->ray_y};
     for (int k = 0; k < 3; k++) {
-        copy_part(wide, from[k], 0, 0, grid->width, crop[k], wide.x0, wide.y0, width);
+        copy_part(wide, from[k], whole, crop[k], wide);
     }
     rlf_normals_job job = rlf_normals_job_make(stage, crop[0], crop + 3);
-    job.width = width;
+    job.width = wide.x1 - wide.x0;
     job.height = wide.y1 - wide.y0;
     job.ray_x = crop[1];
     job.ray_y = crop[2];
     job.pool = NULL;
     rlf_normals_compute(&job);
-    copy_part(r, stage->background.mean, 0, 0, grid->width, image->depth, 0, 0, grid->width);
+    copy_part(r, stage->background.mean, whole, image->depth, whole);
     for (int k = 0; k < 3; k++) {
-        copy_part(r, crop[3 + k], wide.x0, wide.y0, width, image->normal[k], 0, 0, grid->width);
+        copy_part(r, crop[3 + k], wide, image->normal[k], whole);
     }
     sharpen(stage, slot, image, r);
     clear_left(stage, image, r);
-    tile_is_made(&stage->background, tile, stage->background.changes[tile] >= CHANGES);
+    tile_is_made(&stage->background, tile);
 }
 
 /* Brings the oldest image up to the newest. */
@@ -222,11 +230,10 @@ static void begin_draft(rlf_reconstruct *stage)
     background_image *draft = draft_of(background);
     for (int32_t tile = 0; tile < background_image_tiles(grid); tile++) {
         if (background->version[tile] > draft->version) {
-            const rlf_rect r = tile_at(grid, tile);
-            copy_part(r, newest->depth, 0, 0, grid->width, draft->depth, 0, 0, grid->width);
+            const rlf_rect r = tile_at(grid, tile), whole = {0, 0, grid->width, grid->height};
+            copy_part(r, newest->depth, whole, draft->depth, whole);
             for (int k = 0; k < 3; k++) {
-                copy_part(r, newest->normal[k], 0, 0, grid->width, draft->normal[k], 0, 0,
-                          grid->width);
+                copy_part(r, newest->normal[k], whole, draft->normal[k], whole);
             }
         }
     }
@@ -256,19 +263,17 @@ static int32_t next_tile(const rlf_background *background, int32_t tiles)
 }
 
 /* The draft as a layer that is segmented. */
-static rlf_layer_in draft_layer(const rlf_reconstruct *stage)
+static rlf_layer_in draft_layer(rlf_reconstruct *stage)
 {
-    const rlf_background *background = &stage->background;
+    rlf_background *background = &stage->background;
     const background_image *old = background_image_newest(stage);
-    const background_image *image =
-        &background->images[(background->newest + 1) % BACKGROUND_IMAGES];
+    const background_image *image = draft_of(background);
     rlf_layer_in in = {.layer = RLF_LAYER_BACKGROUND,
                        .method = stage->def.background_segment,
                        .depth = image->depth,
                        .normal = image->normal,
                        .steps_done = background->object_steps,
-                       .kept = image->label,
-                       .color = stage->has_color ? background->color : NULL};
+                       .kept = image->label};
     if (old != NULL) {
         in.previous_label = old->label;
         in.previous = old->regions;

@@ -24,8 +24,6 @@ void rlf_background_reset(rlf_background *background, const image_grid *grid)
     memset(background->still_ms, 0, n * sizeof *background->still_ms);
     memset(background->beneath, 0, n * sizeof *background->beneath);
     memset(background->standing, 0, (size_t)grid->height * sizeof *background->standing);
-    memset(background->color, 0, n * sizeof *background->color);
-    memset(background->hides, 0, (size_t)grid->height);
     if (background->depart.thing != NULL) {
         memset(background->depart.thing, 0, n);
         memset(background->depart.left, 0, n);
@@ -51,6 +49,12 @@ float rlf_background_gate(const rlf_reconstruct_def *def, float z)
 {
     float scaled = (float)(def->foreground_sigmas * rlf_depth_noise_sigma(&def->rig.noise, z));
     return scaled > (float)def->foreground_min_m ? scaled : (float)def->foreground_min_m;
+}
+
+void background_clear_front(const rlf_reconstruct *stage, const rlf_slot *slot)
+{
+    memset(slot->foreground, 0, (size_t)stage->grid.count);
+    memset(stage->work.front, 0, (size_t)stage->grid.height * sizeof *stage->work.front);
 }
 
 rlf_span rlf_background_span(const uint8_t *foreground, int32_t width)

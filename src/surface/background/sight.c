@@ -7,9 +7,10 @@
 #include "kernel/kernel.h"
 
 enum {
-    ROOM_SHARE = 10,  /* of the picture one of so many parts has depth: there is a room */
-    BLIND_SHARE = 10, /* of the known background no more than one of so many parts has depth */
-    RISE_SHARE = 10,  /* a sensor that warms up shows more by one of so many parts, at least */
+    /* One of so many parts of the picture has depth: there is a room. No more than that of the
+     * known background has: nothing is seen. A sensor that warms up shows more by that, at least.
+     */
+    FEW_SHARE = 10,
     MORE_SHARE = 4,   /* of the picture one of so many parts comes into sight */
     MORE_OF_KNOWN = 2 /* the same while the background is learnt, of what is known */
 };
@@ -22,9 +23,9 @@ typedef struct tally {
     int32_t unknown, fresh; /* depth that it is not known of; and there was none before */
 } tally;
 
-RLF_KERNEL static tally count_row(const float *restrict raw, const float *restrict depth,
-                                  const float *restrict mean, const float *restrict before,
-                                  int32_t count)
+RLF_KERNEL static void count_row(const float *restrict raw, const float *restrict depth,
+                                 const float *restrict mean, const float *restrict before,
+                                 int32_t count, tally *restrict sum)
 {
     int32_t seen = 0, known = 0, unknown = 0, fresh = 0;
     for (int32_t i = 0; i < count; i++) {
@@ -35,7 +36,10 @@ RLF_KERNEL static tally count_row(const float *restrict raw, const float *restri
         unknown += is_new;
         fresh += is_new & was_empty;
     }
-    return (tally){seen, known, unknown, fresh};
+    sum->seen += seen;
+    sum->known += known;
+    sum->unknown += unknown;
+    sum->fresh += fresh;
 }
 
 static tally count_all(const rlf_reconstruct *stage, const rlf_slot *slot)
@@ -46,12 +50,8 @@ static tally count_all(const rlf_reconstruct *stage, const rlf_slot *slot)
     for (int32_t y = 0; y < stage->grid.height; y++) {
         const ptrdiff_t row = (ptrdiff_t)y * width;
         const float *before = last != NULL ? last->depth + row : stage->work.zeros;
-        const tally t = count_row(stage->work.raw + row, slot->depth + row,
-                                  stage->background.mean + row, before, width);
-        sum.seen += t.seen;
-        sum.known += t.known;
-        sum.unknown += t.unknown;
-        sum.fresh += t.fresh;
+        count_row(stage->work.raw + row, slot->depth + row, stage->background.mean + row, before,
+                  width, &sum);
     }
     return sum;
 }
@@ -69,7 +69,7 @@ static bool has_room(rlf_sight *sight, const tally *t, int32_t count, int64_t ti
         sight->first_ns = time_ns;
     }
     sight->is_warm = sight->has_depth && time_ns - sight->first_ns >= WARM_UP_NS;
-    return sight->has_room || ROOM_SHARE * (int64_t)t->seen >= count ||
+    return sight->has_room || FEW_SHARE * (int64_t)t->seen >= count ||
            (sight->is_warm && t->seen > 0);
 }
 
@@ -83,8 +83,8 @@ static bool shows_enough(const rlf_reconstruct *stage, const tally *t)
     const rlf_sight *sight = &stage->sight;
     const int64_t seen = t->seen, more = seen - sight->seen;
     const bool is_rising =
-        is_learning(stage) && !sight->is_warm && sight->seen > 0 && RISE_SHARE * more > sight->seen;
-    return sight->has_room && seen > 0 && BLIND_SHARE * seen >= t->known && !is_rising;
+        is_learning(stage) && !sight->is_warm && sight->seen > 0 && FEW_SHARE * more > sight->seen;
+    return sight->has_room && seen > 0 && FEW_SHARE * seen >= t->known && !is_rising;
 }
 
 typedef struct border {

@@ -44,8 +44,6 @@ typedef struct rlf_background {
     uint16_t *still_ms;   /* ADAPTIVE: how long it has not moved */
     float *beneath;       /* ADAPTIVE: the background that an absorbed thing hides; 0 = none */
     rlf_span *standing;   /* ADAPTIVE: per row, where still_ms is not 0 */
-    uint32_t *color;      /* see segment/color.c; 0 = not seen */
-    uint8_t *hides;       /* ADAPTIVE: per row, whether there is anything beneath */
     int32_t frames;
     int32_t *row_changes; /* ADAPTIVE: pixels replaced in this frame, per row and tile column */
     int32_t *changes;     /* per tile: pixels replaced since it was made */
@@ -66,8 +64,7 @@ typedef struct rlf_background {
     static_thickness thick;
     rlf_depart depart;
     uint8_t *seen;    /* plane, scratch of background/adaptive.c */
-    uint8_t *empty;   /* plane, scratch of background/hidden.c ... */
-    int32_t *up;      /* ... as this one */
+    int32_t *up;      /* plane, scratch of background/hidden.c */
     uint8_t *covered; /* plane: RLF_COVERED where a hole is hidden by a thing */
     float *crop[6];   /* of background/image.c */
 } rlf_background;

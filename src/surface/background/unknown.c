@@ -6,11 +6,8 @@
  * not stand in front of what is seen on its left and right. It is foreground when it hangs together
  * with foreground; or when it is large, stands in front, and nothing was known there or it was
  * nearer in the frame before: who goes away from the camera is behind where he was, too. */
-#include "surface/depth/depth.h"
 #include "surface/depth_step.h"
-#include "surface/normals/face.h"
 #include "surface/steps.h"
-#include "surface/window.h"
 
 #include <string.h>
 
@@ -51,15 +48,9 @@ static bool is_leaving(const rlf_reconstruct *stage, const rlf_slot *slot, int32
 /* What moves is no background, and hides what is behind it. */
 static void leave(rlf_reconstruct *stage, int32_t i, float z)
 {
-    rlf_background *background = &stage->background;
-    if (background->depart.left != NULL) {
-        background->depart.left[i] = RLF_LEFT_AWAY;
-        background->mean[i] = z;
-        background->deviation[i] = 0.0f;
-        background->weight[i] = RLF_LEFT_WEIGHT;
-        background->beyond[i] = 0;
-        background_image_changed(background, &stage->grid, i % stage->grid.width,
-                                 i / stage->grid.width, 1);
+    if (stage->background.depart.left != NULL) {
+        stage->background.depart.left[i] = RLF_LEFT_AWAY;
+        background_put(stage, i, z, RLF_LEFT_WEIGHT);
     }
 }
 
@@ -119,11 +110,7 @@ static void learn_hole(rlf_reconstruct *stage, int32_t i, float z, bool front)
     rlf_background *background = &stage->background;
     int32_t age = background->unknown_age[i] + 1;
     if (age >= (front ? HOLE_FRAMES_FRONT : HOLE_FRAMES)) {
-        background->mean[i] = z;
-        background->deviation[i] = 0.0f;
-        background->weight[i] = 1;
-        background_image_changed(background, &stage->grid, i % stage->grid.width,
-                                 i / stage->grid.width, 1);
+        background_put(stage, i, z, 1);
         age = 0;
     }
     background->unknown_age[i] = (uint8_t)age;

@@ -13,13 +13,10 @@
  * them, two components and how much wider it shows what is nearer, is estimated by least squares
  * over the edges of the last frames. Where the two do not agree on pixels that depth is sure of, as
  * when the picture is late or of something else, it is not asked: trust falls to 0. */
-#include "surface/depth/color_guide.h"
-
 #include "surface/stage.h"
 
 #include "kernel/color.h"
 #include "math/inverse.h"
-#include "surface/window.h"
 
 #include <string.h>
 
@@ -243,27 +240,16 @@ void rlf_color_guide_reset(rlf_reconstruct *stage)
     side->trust = 0.0f;
 }
 
-static void add_parts(rlf_color_guide *side)
+/* `to` counts so much from now on, and `more` in full. */
+static void add_sum(rlf_color_sum *to, double share, const rlf_color_sum *more)
 {
-    rlf_color_sum *sum = &side->sum;
-    sum->agree *= kept;
-    sum->asked *= kept;
+    to->agree = share * to->agree + more->agree;
+    to->asked = share * to->asked + more->asked;
     for (int32_t k = 0; k < OFFSETS * OFFSETS; k++) {
-        sum->square[k] *= kept;
+        to->square[k] = share * to->square[k] + more->square[k];
     }
     for (int32_t k = 0; k < OFFSETS; k++) {
-        sum->value[k] *= kept;
-    }
-    for (int32_t p = 0; p < side->parts; p++) {
-        const rlf_color_sum *part = &side->part[p];
-        sum->agree += part->agree;
-        sum->asked += part->asked;
-        for (int32_t k = 0; k < OFFSETS * OFFSETS; k++) {
-            sum->square[k] += part->square[k];
-        }
-        for (int32_t k = 0; k < OFFSETS; k++) {
-            sum->value[k] += part->value[k];
-        }
+        to->value[k] = share * to->value[k] + more->value[k];
     }
 }
 
@@ -274,7 +260,9 @@ void rlf_color_guide_learn(rlf_reconstruct *stage)
     if (side->image.data == NULL) {
         return;
     }
-    add_parts(side);
+    for (int32_t p = 0; p < side->parts; p++) {
+        add_sum(&side->sum, p == 0 ? kept : 1.0, &side->part[p]);
+    }
     side->image.data = NULL; /* the caller's */
     memcpy(inverse, side->sum.square, sizeof inverse);
     for (int32_t k = 0; k < OFFSETS; k++) {

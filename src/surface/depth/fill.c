@@ -12,12 +12,8 @@
  * there (thin/thin.h). The outermost pixels, which drivers' filters leave
  * empty, go on as the two inside of them. A hole about as wide as the widest that is filled is
  * filled in some rows and not in others: what is left of it then is closed. */
-#include "surface/depth/color_guide.h"
-#include "surface/depth/shadow.h"
-#include "surface/depth/depth.h"
 #include "surface/steps.h"
 #include "surface/thin/thin.h"
-#include "surface/window.h"
 
 #include "kernel/batch.h"
 
@@ -207,24 +203,6 @@ static void fill_batch(const fill_job *job, fill_queue *q)
     q->count = 0;
 }
 
-/* What a batch will read of the pixel is brought near. */
-RLF_KERNEL_PART void look_ahead(const fill_job *job, ptrdiff_t i)
-{
-    const image_grid *grid = &job->stage->grid;
-    RLF_KERNEL_SOON(&grid->ray_x[i]);
-    RLF_KERNEL_SOON(&grid->ray_y[i]);
-    if (job->behind != NULL) {
-        ptrdiff_t row = ABOUT_BEHIND * grid->width;
-        RLF_KERNEL_SOON(&job->stage->background.mean[i]);
-        RLF_KERNEL_SOON(&job->behind->depth[i]);
-        RLF_KERNEL_SOON(&job->behind->depth[i >= row ? i - row : i]);
-        RLF_KERNEL_SOON(&job->behind->depth[i + row < grid->count ? i + row : i]);
-        for (int k = 0; k < 3; k++) {
-            RLF_KERNEL_SOON(&job->behind->normal[k][i]);
-        }
-    }
-}
-
 static void push(const fill_job *job, int32_t x, int32_t y, const rlf_gaps *gaps, int32_t k,
                  fill_queue *q)
 {
@@ -233,7 +211,6 @@ static void push(const fill_job *job, int32_t x, int32_t y, const rlf_gaps *gaps
     const int32_t *line = rlf_line_step[gaps->line[k]];
     ptrdiff_t step = line[0] + (ptrdiff_t)line[1] * grid->width;
     int32_t lane = q->count++;
-    look_ahead(job, at - job->depth);
     q->line[lane] = gaps->line[k];
     q->x[lane] = x;
     q->y[lane] = y;
@@ -242,10 +219,9 @@ static void push(const fill_job *job, int32_t x, int32_t y, const rlf_gaps *gaps
     q->ends.to_before[lane] = (float)gaps->to_before[k];
     q->ends.to_after[lane] = (float)gaps->to_after[k];
     q->ends.most_apart[lane] = temporal_may_move(job->stage, x, y) ? MOVING_CHANGE : MOST_CHANGE;
-    const int32_t to_ends[2] = {gaps->to_before[k], gaps->to_after[k]};
     float before = q->ends.before[lane], after = q->ends.after[lane];
-    q->lost[lane] = thin_find_lost(&job->stage->thin, at - job->depth, step, to_ends,
-                                   before < after ? before : after);
+    q->lost[lane] =
+        thin_find_lost(&job->stage->thin, at - job->depth, before < after ? before : after);
     rlf_windows_read(job->depth, grid->width, grid->height, x, y, lane, &q->depth);
     if (q->count == RLF_BATCH) {
         fill_batch(job, q);

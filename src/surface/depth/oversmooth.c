@@ -5,13 +5,11 @@
  * two surfaces, where nothing is. But there the pixel is alone: those about it are at the depth
  * that it was seen at. Where something has moved lately, and no mean over time says better, such a
  * pixel goes back to where it was seen, and has no normal of its own. */
-#include "surface/depth/depth.h"
 #include "surface/steps.h"
-#include "surface/window.h"
 
 #include "kernel/kernel.h"
 
-enum { SPAN = 128, LEAST_BESIDE = 2 };
+enum { LEAST_BESIDE = 2 };
 
 /* Of the depth: off its surface, as flying_row.c has it; at the same depth. */
 static const float far_share = 0.012f, far_m = 0.004f;
@@ -53,7 +51,7 @@ static void look_at_pixel(const oversmooth_job *job, ptrdiff_t i)
 static void look_at_run(const oversmooth_job *job, int32_t x, int32_t y, int32_t count)
 {
     ptrdiff_t first = (ptrdiff_t)y * job->stage->grid.width + x;
-    uint8_t moved[SPAN];
+    uint8_t moved[RLF_PART];
     rlf_kernel_moved_row(job->seen + first, job->smooth + first, far_share, far_m, count, moved);
     for (int32_t k = 0; (k = rlf_kernel_next_mark(moved, k, count)) < count; k++) {
         look_at_pixel(job, first + k);
@@ -70,8 +68,8 @@ static void look_at_rows(void *context, int32_t begin, int32_t end, int32_t work
         for (int32_t x = 0; x < grid->width;) {
             rlf_span moving = temporal_next_moving(job->stage, x, y);
             int32_t x0 = moving.x0 > 1 ? moving.x0 : 1, x1 = rlf_least(moving.x1, grid->width - 1);
-            for (; x0 < x1; x0 += SPAN) {
-                look_at_run(job, x0, y, x1 - x0 < SPAN ? x1 - x0 : SPAN);
+            for (; x0 < x1; x0 += RLF_PART) {
+                look_at_run(job, x0, y, x1 - x0 < RLF_PART ? x1 - x0 : RLF_PART);
             }
             x = moving.x1;
         }

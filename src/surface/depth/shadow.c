@@ -5,8 +5,6 @@
  * The baseline, and the side, are read off the picture: every run without depth between a near and
  * a far end says how long its baseline would be. On the shadow's side many are about as long, and
  * their median is the sensor's; on the other side, and with a sensor that has none, few are. */
-#include "surface/depth/shadow.h"
-
 #include "surface/steps.h"
 
 #include <string.h>
@@ -14,7 +12,6 @@
 enum {
     ROWS_APART = 8,  /* of those that a frame is asked about */
     WIDEST = 64,     /* pixels without depth; what is wider is a hole */
-    MIXED = 2,       /* pixels at an edge that drivers drop without a shadow */
     FIRST_BIN = 4,   /* of a run that a shadow is in: less is what drivers drop at edges */
     LEAST_TOLD = 50, /* runs, so that their median counts */
     PLAIN_STEP = 4   /* pixels of shadow that a step would have to throw by `plain_m` */
@@ -33,7 +30,7 @@ static void tell(rlf_reconstruct *stage, float left, float right, int32_t wide)
     if (!(steps * plain_m >= (float)PLAIN_STEP)) {
         return;
     }
-    float metres = wide > MIXED ? (float)(wide - MIXED) / steps : 0.0f;
+    float metres = wide > RLF_SHADOW_MIXED ? (float)(wide - RLF_SHADOW_MIXED) / steps : 0.0f;
     int32_t bin = (int32_t)(metres / bin_m);
     if (bin < RLF_SHADOW_BINS) {
         shadow->told[left < right][bin] += 1.0f;

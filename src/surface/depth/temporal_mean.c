@@ -1,5 +1,4 @@
 /* The mean over time of depth that does not change, gated per pixel (kernel/steady_row.c). */
-#include "surface/depth/depth.h"
 #include "surface/steps.h"
 
 #include "kernel/kernel.h"
@@ -32,9 +31,6 @@ static void lag_row(const mean_job *job, int32_t y)
     }
     rlf_kernel_lag_row(rlf_kernel_noise_make(&stage->def.rig.noise), &in, grid->width,
                        job->lag + row);
-    if (stage->normals.vote.votes != NULL) {
-        vote_lags(stage, row, &in, job->lag + row);
-    }
 }
 
 static void mean_row(const mean_job *job, int32_t y)

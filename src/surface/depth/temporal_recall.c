@@ -6,10 +6,8 @@
  * when something moves about it: so nothing that has left can stay, and nothing hangs in the air. A
  * pixel that was taken for a mixed one for want of neighbours, in a slit between two things, is
  * believed where the memory has it at the same depth. */
-#include "surface/depth/depth.h"
 #include "surface/steps.h"
 #include "surface/thin/thin.h"
-#include "surface/window.h"
 
 #include "kernel/batch.h"
 
@@ -35,24 +33,19 @@ typedef struct recall_job {
     uint8_t *reason;
 } recall_job;
 
-/* The pixels of a block that have moved: eight bytes of a row together, where it is whole. */
+/* The pixels of a block that have moved. */
 static int32_t count_moved(const recall_job *job, int32_t bx, int32_t by)
 {
-    const uint64_t ones = UINT64_C(0x0101010101010101);
     const image_grid *grid = &job->stage->grid;
-    int32_t moved = 0, x0 = bx * BLOCK, x1 = rlf_least(x0 + BLOCK, grid->width);
-    uint64_t columns = 0;
+    const int32_t x0 = bx * BLOCK, x1 = rlf_least(x0 + BLOCK, grid->width);
+    int32_t moved = 0;
     for (int32_t y = by * BLOCK; y < rlf_least((by + 1) * BLOCK, grid->height); y++) {
         const uint8_t *row = job->change + (ptrdiff_t)y * grid->width;
-        if (x1 - x0 == BLOCK) {
-            columns += (rlf_kernel_eight(row + x0) >> 1) & ones; /* RLF_CHANGE_MOVED is 2 */
-            continue;
-        }
         for (int32_t x = x0; x < x1; x++) {
             moved += row[x] == RLF_CHANGE_MOVED;
         }
     }
-    return moved + (int32_t)((columns * ones) >> 56);
+    return moved;
 }
 
 static void update_calm(const recall_job *job, int32_t bx, int32_t by)
@@ -167,23 +160,13 @@ static void recall_batch(const recall_job *job, recall_queue *q)
 static void read_seen(const recall_job *job, int32_t x, int32_t y, int32_t lane,
                       rlf_windows *restrict out)
 {
-    enum { ABOUT = RLF_WINDOW_ABOUT, SIDE = RLF_WINDOW_SIDE };
+    enum { SIDE = RLF_WINDOW_SIDE };
     static const float sign[3] = {
         [RLF_CHANGE_UNSEEN] = 0.0f, [RLF_CHANGE_STILL] = 1.0f, [RLF_CHANGE_MOVED] = -1.0f};
     const image_grid *grid = &job->stage->grid;
     ptrdiff_t middle = (ptrdiff_t)y * grid->width + x;
     const float *depth = job->depth + middle;
     const uint8_t *change = job->change + middle;
-    if (x >= ABOUT && y >= ABOUT && x + ABOUT < grid->width && y + ABOUT < grid->height) {
-        for (int32_t r = 0; r < SIDE; r++) {
-            ptrdiff_t row = (ptrdiff_t)(r - ABOUT) * grid->width - ABOUT;
-            for (int32_t c = 0; c < SIDE; c++) {
-                ptrdiff_t i = change[row + c] != RLF_CHANGE_UNSEEN ? row + c : 0;
-                out->at[r * SIDE + c][lane] = sign[change[row + c]] * depth[i];
-            }
-        }
-        return;
-    }
     rlf_window_places p = rlf_window_places_make(grid->width, grid->height, x, y);
     for (int32_t r = 0; r < SIDE; r++) {
         for (int32_t c = 0; c < SIDE; c++) {

@@ -6,8 +6,6 @@
  * the picture moves by as much as its own width from frame to frame. */
 #include "surface/motion/motion.h"
 
-#include "surface/window.h"
-
 #include <math.h>
 
 enum {

@@ -11,9 +11,7 @@
  *
  * Narrow faces that no window fits are told by what the means over time show (contour_side.c).
  * Where the contour is, is seen within two pixels, and of what moves within four. */
-#include "surface/depth/depth.h"
 #include "surface/normals/contour.h"
-#include "surface/window.h"
 
 #include <string.h>
 

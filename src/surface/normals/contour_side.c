@@ -11,7 +11,6 @@
  * Of a side that is one pixel wide nothing is ever seen. A thing that is no wider than a leg or a
  * pole is then taken to be as deep as it is wide: if its side would reach the outermost pixel's
  * ray, that pixel is on it. */
-#include "surface/depth/depth.h"
 #include "surface/normals/contour.h"
 
 static const double LEAST_FLAT = 0.985;  /* cosine between two normals of a front */
@@ -53,12 +52,6 @@ static rlf_vec3 ray_at(const contour_sides *job, ptrdiff_t i)
     return rlf_vec3_make(job->planes.ray_x[i], job->planes.ray_y[i], 1.0);
 }
 
-static rlf_vec3 normal_at(const contour_sides *job, ptrdiff_t i)
-{
-    float *const *normal = job->planes.normal;
-    return rlf_vec3_make(normal[0][i], normal[1][i], normal[2][i]);
-}
-
 static bool goes_on(const contour_sides *job, float from, float to)
 {
     return to > 0.0f && !depth_step_between(&job->step, from, to);
@@ -93,9 +86,9 @@ static bool find_front(const contour_sides *job, const place *at, front *out)
     if (job->planes.known[i] == 0 || job->planes.known[next] == 0) {
         return false;
     }
-    out->normal = normal_at(job, i);
+    out->normal = image_grid_vector(job->planes.normal, i);
     out->offset = job->planes.depth[i] * rlf_dot(out->normal, ray_at(job, i));
-    return rlf_dot(out->normal, normal_at(job, next)) > LEAST_FLAT;
+    return rlf_dot(out->normal, image_grid_vector(job->planes.normal, next)) > LEAST_FLAT;
 }
 
 /* Square to the front and to the contour, facing the camera; false when it cannot. */

@@ -6,9 +6,7 @@
  * part of a pixel, whatever the noise of the pixels on it. Unless that is small: a narrow face is
  * known less well than a pixel that has been averaged for a while, which then decides. */
 #include "surface/depth_step.h"
-#include "surface/normals/face.h"
 #include "surface/steps.h"
-#include "surface/window.h"
 
 #include "kernel/kernel.h"
 
@@ -195,22 +193,6 @@ static void sharpen_pixel(const crease_job *job, int32_t x, int32_t y)
     }
 }
 
-/* What is read of a row below, when that is looked at, is brought near. */
-RLF_KERNEL_PART void look_ahead(const crease_job *job, ptrdiff_t i)
-{
-    RLF_KERNEL_SOON(&job->bent[i]);
-    RLF_KERNEL_SOON(&job->depth[i]);
-    RLF_KERNEL_SOON(&job->ray_x[i]);
-    RLF_KERNEL_SOON(&job->ray_y[i]);
-    for (int k = 0; k < 3; k++) {
-        RLF_KERNEL_SOON(&job->normal[k][i]);
-    }
-    if (job->frames != NULL) {
-        RLF_KERNEL_SOON(&job->mean[i]);
-        RLF_KERNEL_SOON(&job->frames[i]);
-    }
-}
-
 static void sharpen_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
@@ -218,10 +200,8 @@ static void sharpen_rows(void *context, int32_t begin, int32_t end, int32_t work
     for (int32_t y = begin; y < end; y++) {
         ptrdiff_t row = (ptrdiff_t)y * job->width;
         const uint8_t *bent = job->bent + row;
-        int32_t below = rlf_least(y + MOST_STEPS + 1, job->height - 1);
         for (int32_t x = 0; (x = rlf_kernel_next_mark(bent, x, job->width)) < job->width; x++) {
             if (is_known(job, row + x)) {
-                look_ahead(job, (ptrdiff_t)below * job->width + x);
                 sharpen_pixel(job, x, y);
             }
         }

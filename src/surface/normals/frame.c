@@ -1,6 +1,5 @@
 /* Normals of a frame: of the planes that smooth its depth, of what no plane explains, and, when
  * what moves is known, of both layers. */
-#include "surface/depth/depth.h"
 #include "surface/steps.h"
 
 #include <string.h>
@@ -38,9 +37,6 @@ void normals_complete(rlf_reconstruct *stage, rlf_slot *slot, const uint8_t *was
     }
     if (stage->def.enable_edge_normals) {
         rlf_normals_crease(stage, slot, was_seen);
-    }
-    if (stage->normals.vote.votes != NULL) {
-        vote_lead(stage, slot, was_seen);
     }
     if (stage->def.enable_fill && stage->def.enable_edge_normals) {
         rlf_normals_contour(stage, slot, was_seen, &stage->normals.contour);
@@ -135,7 +131,6 @@ void normals_allocate(normals_state *state, rlf_arena *arena, const rlf_reconstr
     if (vote_is_wanted(def)) {
         state->vote.votes = arena_take(arena, n, sizeof *state->vote.votes);
         state->vote.watch = arena_take(arena, n, 1);
-        state->vote.outvoted = arena_take(arena, n, 1);
     }
     take_wide(state, arena, def, grid);
 }
@@ -147,6 +142,5 @@ void normals_reset(normals_state *state, const image_grid *grid)
     if (state->vote.votes != NULL) {
         memset(state->vote.votes, 0, n * sizeof *state->vote.votes);
         memset(state->vote.watch, 0, n);
-        memset(state->vote.outvoted, 0, n);
     }
 }

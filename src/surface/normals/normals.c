@@ -1,23 +1,63 @@
-/* Chooses the normal method and turns its result to the wanted side. */
+/* Chooses the normal method and turns its result to the wanted side. Normals of noisy depth are
+ * those of plane windows (kernel/plane_tile.c), then of the few pixels that no plane explains
+ * (normals/complete.c). */
 #include "surface/steps.h"
 
-static void turn_to_image_plane(const rlf_normals_job *job)
+#include "kernel/kernel.h"
+
+static void plane_bands(void *context, int32_t begin, int32_t end, int32_t worker)
 {
-    size_t count = (size_t)job->width * (size_t)job->height;
-    for (size_t i = 0; i < count; i++) {
-        float sign = job->out[2][i] > 0.0f ? -1.0f : 1.0f;
-        for (int k = 0; k < 3; k++) {
-            job->out[k][i] *= sign;
+    (void)worker;
+    const rlf_normals_job *job = context;
+    for (int32_t band = begin; band < end; band++) {
+        for (int32_t x = 0; x < job->width; x += RLF_KERNEL_TILE_WIDTH) {
+            int32_t y = band * RLF_KERNEL_TILE_HEIGHT;
+            int32_t x1 = x + RLF_KERNEL_TILE_WIDTH;
+            int32_t y1 = y + RLF_KERNEL_TILE_HEIGHT;
+            rlf_kernel_tile tile = {job->width,
+                                    job->height,
+                                    x,
+                                    y,
+                                    x1 < job->width ? x1 : job->width,
+                                    y1 < job->height ? y1 : job->height,
+                                    job->depth,
+                                    job->ray_x,
+                                    job->ray_y,
+                                    job->frames,
+                                    job->lasting,
+                                    rlf_kernel_noise_make(job->noise),
+                                    job->out[0],
+                                    job->out[1],
+                                    job->out[2],
+                                    job->smooth};
+            rlf_kernel_plane_tile(&tile);
         }
     }
 }
 
-static void turn_to_camera(const rlf_normals_job *job)
+void rlf_normals_plane_fit(const rlf_normals_job *job)
+{
+    rlf_normals_job copy = *job;
+    int32_t bands = (job->height + RLF_KERNEL_TILE_HEIGHT - 1) / RLF_KERNEL_TILE_HEIGHT;
+    rlf_parallel_for(job->pool, bands, 1, plane_bands, &copy);
+}
+
+void rlf_normals_plane(const rlf_normals_job *job)
+{
+    rlf_normals_plane_fit(job);
+    rlf_normals_plane_complete(job);
+}
+
+/* To the camera, or as in eq. 4.3 to the image's plane. */
+static void turn(const rlf_normals_job *job)
 {
     size_t count = (size_t)job->width * (size_t)job->height;
     for (size_t i = 0; i < count; i++) {
-        float facing =
-            job->out[0][i] * job->ray_x[i] + job->out[1][i] * job->ray_y[i] + job->out[2][i];
+        float facing = job->out[2][i];
+        if (job->face_camera) {
+            facing =
+                job->out[0][i] * job->ray_x[i] + job->out[1][i] * job->ray_y[i] + job->out[2][i];
+        }
         float sign = facing > 0.0f ? -1.0f : 1.0f;
         for (int k = 0; k < 3; k++) {
             job->out[k][i] *= sign;
@@ -29,8 +69,8 @@ void rlf_normals_compute(const rlf_normals_job *job)
 {
     switch (job->method) {
     case RLF_NORMALS_SIX_FACES:
-    case RLF_NORMALS_FOUR_FACES: rlf_normals_faces(job); break;
-    case RLF_NORMALS_THESIS: rlf_normals_thesis(job); break;
+    case RLF_NORMALS_FOUR_FACES:
+    case RLF_NORMALS_THESIS: rlf_normals_local(job); break;
     case RLF_NORMALS_INVERSE_DEPTH:
         if (job->noise != NULL) {
             rlf_normals_plane(job);
@@ -39,10 +79,8 @@ void rlf_normals_compute(const rlf_normals_job *job)
         }
         break;
     }
-    if (!job->face_camera) {
-        turn_to_image_plane(job);
-    } else if (job->method != RLF_NORMALS_INVERSE_DEPTH) {
-        turn_to_camera(job);
+    if (!job->face_camera || job->method != RLF_NORMALS_INVERSE_DEPTH) {
+        turn(job);
     }
 }
 

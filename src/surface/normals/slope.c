@@ -3,9 +3,9 @@
 
 #include "kernel/kernel.h"
 
-enum { STRIP = 256, INVERSE_ROWS = 5, RAY_ROWS = 3 };
+enum { STRIP = 256, INVERSE_ROWS = RLF_WINDOW_SIDE, RAY_ROWS = 3 };
 
-/* A strip of columns with the rows about the current one; rows are kept modulo their number. */
+/* The rows about one, a strip of columns of each. */
 typedef struct strip {
     float inverse[INVERSE_ROWS][STRIP + 4];
     float ray_x[RAY_ROWS][STRIP + 4], ray_y[RAY_ROWS][STRIP + 4];
@@ -30,56 +30,35 @@ static void load_span(const rlf_normals_job *job, const float *plane, const stri
     }
 }
 
-static int32_t wrap(int32_t y, int32_t rows)
+static void slope_strip(const rlf_normals_job *job, strip *s, int32_t y)
 {
-    return (y + 4 * rows) % rows;
-}
-
-static void load_inverse(const rlf_normals_job *job, strip *s, int32_t y)
-{
-    float depth[STRIP + 4];
-    load_span(job, job->depth, s, y, depth);
-    rlf_kernel_inverse_row(depth, s->count + 4, s->inverse[wrap(y, INVERSE_ROWS)]);
-}
-
-static void load_rays(const rlf_normals_job *job, strip *s, int32_t y)
-{
-    load_span(job, job->ray_x, s, y, s->ray_x[wrap(y, RAY_ROWS)]);
-    load_span(job, job->ray_y, s, y, s->ray_y[wrap(y, RAY_ROWS)]);
-}
-
-static void slope_strip(const rlf_normals_job *job, strip *s, int32_t begin, int32_t end)
-{
-    for (int32_t y = begin - 2; y < begin + 2; y++) {
-        load_inverse(job, s, y);
+    rlf_kernel_slope_in in = {.count = s->count};
+    for (int32_t k = 0; k < INVERSE_ROWS; k++) {
+        float depth[STRIP + 4];
+        load_span(job, job->depth, s, y - INVERSE_ROWS / 2 + k, depth);
+        rlf_kernel_inverse_row(depth, s->count + 4, s->inverse[k]);
+        in.inverse[k] = s->inverse[k] + 2;
     }
-    for (int32_t y = begin - 1; y < begin + 1; y++) {
-        load_rays(job, s, y);
+    for (int32_t k = 0; k < RAY_ROWS; k++) {
+        load_span(job, job->ray_x, s, y - RAY_ROWS / 2 + k, s->ray_x[k]);
+        load_span(job, job->ray_y, s, y - RAY_ROWS / 2 + k, s->ray_y[k]);
+        in.ray_x[k] = s->ray_x[k] + 2;
+        in.ray_y[k] = s->ray_y[k] + 2;
     }
-    for (int32_t y = begin; y < end; y++) {
-        load_inverse(job, s, y + 2);
-        load_rays(job, s, y + 1);
-        rlf_kernel_slope_in in = {.count = s->count};
-        for (int32_t k = 0; k < INVERSE_ROWS; k++) {
-            in.inverse[k] = s->inverse[wrap(y - 2 + k, INVERSE_ROWS)] + 2;
-        }
-        for (int32_t k = 0; k < RAY_ROWS; k++) {
-            in.ray_x[k] = s->ray_x[wrap(y - 1 + k, RAY_ROWS)] + 2;
-            in.ray_y[k] = s->ray_y[wrap(y - 1 + k, RAY_ROWS)] + 2;
-        }
-        ptrdiff_t offset = (ptrdiff_t)y * job->width + s->x0;
-        rlf_kernel_slope_row(&in, job->out[0] + offset, job->out[1] + offset, job->out[2] + offset);
-    }
+    ptrdiff_t offset = (ptrdiff_t)y * job->width + s->x0;
+    rlf_kernel_slope_row(&in, job->out[0] + offset, job->out[1] + offset, job->out[2] + offset);
 }
 
 static void slope_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
     const rlf_normals_job *job = context;
-    strip s;
-    for (s.x0 = 0; s.x0 < job->width; s.x0 += STRIP) {
-        s.count = job->width - s.x0 < STRIP ? job->width - s.x0 : STRIP;
-        slope_strip(job, &s, begin, end);
+    for (int32_t y = begin; y < end; y++) {
+        strip s;
+        for (s.x0 = 0; s.x0 < job->width; s.x0 += STRIP) {
+            s.count = job->width - s.x0 < STRIP ? job->width - s.x0 : STRIP;
+            slope_strip(job, &s, y);
+        }
     }
 }
 
@@ -94,5 +73,5 @@ void rlf_normals_slope_pixel(const rlf_normals_job *job, int32_t x, int32_t y)
     strip s;
     s.x0 = x;
     s.count = 1;
-    slope_strip(job, &s, y, y + 1);
+    slope_strip(job, &s, y);
 }

@@ -10,7 +10,6 @@ enum { RLF_VOTE_MOST = 32 }; /* a second: as long may what was stay */
 /* The normal that most frames agree on at a pixel: see normals/vote.c. */
 typedef struct rlf_vote {
     float normal[3], depth; /* the candidate */
-    float own[3];           /* what the newest frame found where it was outvoted */
     int32_t count;          /* votes for the candidate, less those against it; 0 = there is none */
 } rlf_vote;
 
@@ -37,9 +36,8 @@ typedef struct rlf_wide {
 
 /* See normals/vote.c; NULL planes when normals at edges are not wanted. */
 typedef struct normals_votes {
-    rlf_vote *votes;   /* plane */
-    uint8_t *watch;    /* plane: frames that a pixel votes in from now on */
-    uint8_t *outvoted; /* plane: 1 where the newest frame's own normal is another */
+    rlf_vote *votes; /* plane */
+    uint8_t *watch;  /* plane: frames that a pixel votes in from now on */
 } normals_votes;
 
 /* Planes of normals/contour.c, scratch. */

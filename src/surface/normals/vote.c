@@ -8,14 +8,9 @@
  * stays no longer than that, and only at the depth where it was.
  *
  * Only pixels that were filled or lay on a crease in one of the last frames vote, and only while
- * they show the background: what moves has nothing to agree on. The candidate is used twice:
- *
- * - before filled pixels are completed, seen pixels take it, so that others go on from it;
- * - after the background is known, all pixels take it that found something else. A filled pixel
- *   takes the depth, too: each frame guesses anew on which side of a contour it is.
- *
- * The gates of the next frame's mean over time go by what the frame itself saw (vote_lags): noise
- * of a steep face that was outvoted must not count as motion, or the other way round. */
+ * they show the background: what moves has nothing to agree on. When the background is known, all
+ * pixels that found something else take the candidate. A filled pixel takes the depth, too: each
+ * frame guesses anew on which side of a contour it is. */
 #include "surface/depth_step.h"
 #include "surface/steps.h"
 
@@ -27,19 +22,17 @@
 static const float AGREED = 0.94f; /* cosine: 20 degrees */
 
 enum {
-    LEAST_VOTES = 3,    /* for the published background */
-    LEADING_VOTES = 16, /* for what filled pixels are completed from: half of the most */
-    WATCHED = 9,        /* frames that a pixel votes in after one that gave reason to */
-    AHEAD = 8           /* pixels from one that votes to one whose vote is fetched */
+    LEAST_VOTES = 3, /* for the published background */
+    WATCHED = 9      /* frames that a pixel votes in after one that gave reason to */
 };
 
 typedef struct vote_job {
     const rlf_reconstruct *stage;
-    const uint8_t *reason, *foreground, *known;
+    const uint8_t *reason, *foreground;
     float *depth;
     float *const *normal;
     rlf_vote *votes;
-    uint8_t *watch, *outvoted;
+    uint8_t *watch;
     depth_step step;
 } vote_job;
 
@@ -65,26 +58,6 @@ static void write_normal(const vote_job *job, ptrdiff_t i, const float normal[3]
 static bool is_there(const vote_job *job, const rlf_vote *v, ptrdiff_t i)
 {
     return !depth_step_between(&job->step, job->depth[i], v->depth);
-}
-
-/* Brings near what a pixel's vote reads: votes are far apart in memory. */
-RLF_KERNEL_PART void fetch(const vote_job *job, ptrdiff_t i)
-{
-    RLF_KERNEL_SOON(&job->votes[i]);
-    for (int32_t k = 0; k < 3; k++) {
-        RLF_KERNEL_SOON(&job->normal[k][i]);
-    }
-}
-
-/* The next pixel of a row that votes, from x on; what the one AHEAD pixels on reads is fetched. */
-static int32_t next_voter(const vote_job *job, ptrdiff_t row, int32_t x, int32_t width)
-{
-    x = rlf_kernel_next_mark(job->watch + row, x, width);
-    int32_t ahead = x + AHEAD;
-    if (ahead < width && job->watch[row + ahead] != 0) {
-        fetch(job, row + ahead);
-    }
-    return x;
 }
 
 /* ---- the vote ---- */
@@ -114,22 +87,11 @@ static void agree(rlf_vote *v, const float normal[3], float depth)
     v->depth += part * (depth - v->depth);
 }
 
-static void outvote(const vote_job *job, ptrdiff_t i, const float own[3])
-{
-    rlf_vote *v = &job->votes[i];
-    memcpy(v->own, own, sizeof v->own);
-    write_normal(job, i, v->normal);
-    job->outvoted[i] = 1;
-}
-
 static void vote(const vote_job *job, ptrdiff_t i)
 {
     rlf_vote *v = &job->votes[i];
     float own[3], depth = job->depth[i];
     read_normal(job, i, own);
-    if (job->outvoted[i] != 0) { /* before: the candidate may not vote for itself */
-        memcpy(own, v->own, sizeof own);
-    }
     bool is_near = is_there(job, v, i);
     if (!(dot(own, own) > 0.5f)) {
         return; /* it has none */
@@ -139,10 +101,9 @@ static void vote(const vote_job *job, ptrdiff_t i)
     } else if (is_near && dot(own, v->normal) > AGREED) {
         agree(v, own, depth);
     } else if (--v->count == 0) {
-        write_normal(job, i, own);
         propose(v, own, depth);
     } else if (is_near || job->reason[i] == RLF_REASON_FILLED) {
-        outvote(job, i, own);
+        write_normal(job, i, v->normal);
         job->depth[i] = is_near ? depth : v->depth;
     }
 }
@@ -160,10 +121,6 @@ static void watch_filled(const vote_job *job, ptrdiff_t row, int32_t width)
 static void vote_pixel(const vote_job *job, ptrdiff_t i)
 {
     if (job->foreground[i] != 0) { /* what stands in front keeps its own normal */
-        if (job->outvoted[i] != 0) {
-            write_normal(job, i, job->votes[i].own);
-            job->outvoted[i] = 0;
-        }
         return;
     }
     job->watch[i]--;
@@ -182,57 +139,22 @@ static void vote_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     for (int32_t y = begin; y < end; y++) {
         ptrdiff_t row = (ptrdiff_t)y * width;
         watch_filled(job, row, width);
-        for (int32_t x = 0; (x = next_voter(job, row, x, width)) < width; x++) {
+        for (int32_t x = 0; (x = rlf_kernel_next_mark(job->watch + row, x, width)) < width; x++) {
             vote_pixel(job, row + x);
         }
     }
 }
 
-/* ---- before what was filled is completed ---- */
-
-static void lead_rows(void *context, int32_t begin, int32_t end, int32_t worker)
-{
-    (void)worker;
-    const vote_job *job = context;
-    int32_t width = job->stage->grid.width;
-    for (int32_t y = begin; y < end; y++) {
-        ptrdiff_t row = (ptrdiff_t)y * width;
-        memset(job->outvoted + row, 0, (size_t)width);
-        for (int32_t x = 0; (x = next_voter(job, row, x, width)) < width; x++) {
-            const rlf_vote *v = &job->votes[row + x];
-            float own[3];
-            read_normal(job, row + x, own);
-            if (job->known[row + x] != 0 && v->count >= LEADING_VOTES && dot(own, own) > 0.5f &&
-                !(dot(own, v->normal) > AGREED) && is_there(job, v, row + x)) {
-                outvote(job, row + x, own);
-            }
-        }
-    }
-}
-
-static vote_job make_job(const rlf_reconstruct *stage, const rlf_slot *slot)
-{
-    return (vote_job){.stage = stage,
-                      .reason = slot->reason,
-                      .foreground = slot->foreground,
-                      .depth = slot->depth,
-                      .normal = slot->normal,
-                      .votes = stage->normals.vote.votes,
-                      .watch = stage->normals.vote.watch,
-                      .outvoted = stage->normals.vote.outvoted,
-                      .step = depth_step_make(&stage->def.rig.noise, stage->grid.camera.fx)};
-}
-
-void vote_lead(const rlf_reconstruct *stage, const rlf_slot *slot, const uint8_t *known)
-{
-    vote_job job = make_job(stage, slot);
-    job.known = known;
-    rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, lead_rows, &job);
-}
-
 void vote_normals(const rlf_reconstruct *stage, const rlf_slot *slot)
 {
-    vote_job job = make_job(stage, slot);
+    vote_job job = {.stage = stage,
+                    .reason = slot->reason,
+                    .foreground = slot->foreground,
+                    .depth = slot->depth,
+                    .normal = slot->normal,
+                    .votes = stage->normals.vote.votes,
+                    .watch = stage->normals.vote.watch,
+                    .step = depth_step_make(&stage->def.rig.noise, stage->grid.camera.fx)};
     rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, vote_rows, &job);
 }
 
@@ -258,33 +180,5 @@ void vote_watch(const rlf_reconstruct *stage, ptrdiff_t first, const uint8_t *ma
     uint8_t *restrict watch = stage->normals.vote.watch + first; /* no byte of the marks */
     for (int32_t k = 0; k < count; k++) {
         watch[k] = marks[k] != 0 ? WATCHED : watch[k];
-    }
-}
-
-/* The steeper of what pixel i found in the frame before and of what has led there: a side that
- * frames take for the front beside it is as noisy as a side. */
-static const float *steeper(const rlf_reconstruct *stage, ptrdiff_t i)
-{
-    const rlf_vote *v = &stage->normals.vote.votes[i];
-    const float ray[3] = {stage->grid.ray_x[i], stage->grid.ray_y[i], 1.0f};
-    bool leads = v->count > LEADING_VOTES && dot(v->normal, ray) > dot(v->own, ray);
-    return leads ? v->normal : v->own;
-}
-
-void vote_lags(const rlf_reconstruct *stage, ptrdiff_t row, const rlf_kernel_lag_in *in,
-               int8_t *lag)
-{
-    const uint8_t *outvoted = stage->normals.vote.outvoted + row;
-    int32_t width = stage->grid.width;
-    rlf_kernel_noise noise = rlf_kernel_noise_make(&stage->def.rig.noise);
-    for (int32_t x = 0; (x = rlf_kernel_next_mark(outvoted, x, width)) < width; x++) {
-        const float *own = steeper(stage, row + x);
-        const rlf_kernel_lag_in one = {{&own[0], &own[1], &own[2]},
-                                       in->ray_x + x,
-                                       in->ray_y + x,
-                                       in->depth + x,
-                                       in->mean + x,
-                                       in->frames + x};
-        rlf_kernel_lag_row(noise, &one, 1, lag + x);
     }
 }

@@ -63,20 +63,12 @@ static void find_borders(rlf_reconstruct *stage, const rlf_layer_in *in)
     }
 }
 
-static int32_t root_of(const int32_t *map, int32_t c)
-{
-    while (map[c] != c) {
-        c = map[c];
-    }
-    return c;
-}
-
 /* Pixels take the numbers that theirs are mapped to. */
 static void renumber(rlf_reconstruct *stage, int32_t components)
 {
     int32_t *map = stage->work.map;
     for (int32_t c = 1; c <= components; c++) {
-        map[c] = root_of(map, c);
+        map[c] = rlf_component_root(map, c);
     }
     for (int32_t i = 0; i < stage->grid.count; i++) {
         stage->work.component[i] = map[stage->work.component[i]];
@@ -93,7 +85,7 @@ static void join_open(rlf_reconstruct *stage, int32_t components)
     for (int32_t k = 0; k < RLF_BORDERS; k++) {
         const rlf_border *border = &o->border[k];
         if (border->a > o->count && border->open > LEAST_OPEN * border->pixels) {
-            int32_t a = root_of(map, border->a), b = root_of(map, border->b);
+            int32_t a = rlf_component_root(map, border->a), b = rlf_component_root(map, border->b);
             map[a < b ? b : a] = a < b ? a : b;
         }
     }

@@ -2,7 +2,7 @@
  *
  * Large planes are found first: floors, walls, tables (planes.c). Pixels on one of them are its
  * region (support.c). What is left is cut along concave contacts and depth steps, where one thing
- * touches another (contact.c), and its connected components are the things (objects.c). */
+ * touches another, and its connected components are the things (objects.c). */
 #ifndef RLF_SURFACE_OBJECTS_H
 #define RLF_SURFACE_OBJECTS_H
 
@@ -94,9 +94,6 @@ void rlf_supports_find(rlf_reconstruct *stage, const rlf_layer_in *in);
 
 /* support.c: writes objects.support. */
 void rlf_supports_mark(rlf_reconstruct *stage, const rlf_layer_in *in);
-
-/* contact.c: takes pixels out of work.links where things touch, and on the support planes. */
-void rlf_contacts_cut(rlf_reconstruct *stage, const rlf_layer_in *in);
 
 /* join.c: gives things that are one the same number, in work.component. */
 void rlf_objects_join(rlf_reconstruct *stage, const rlf_layer_in *in, int32_t components);

@@ -75,15 +75,13 @@ typedef struct float_plane {
     float a, b, c, size;
 } float_plane;
 
-enum { RUN = 64 }; /* pixels, at most */
-
 /* Pixels of a row, and the best plane of each so far; `least`: how far off it is at most. */
 typedef struct pixel_run {
     const float *depth, *normal[3], *ray_x, *ray_y;
-    uint8_t before[RUN]; /* plane of the image before */
+    uint8_t before[RLF_PART]; /* plane of the image before */
     int32_t count;
-    float w[RUN], sigma[RUN], least[RUN];
-    int32_t best[RUN];
+    float w[RLF_PART], sigma[RLF_PART], least[RLF_PART];
+    int32_t best[RLF_PART];
 } pixel_run;
 
 RLF_KERNEL_PART void start_run(pixel_run *run, rlf_kernel_noise noise)
@@ -175,9 +173,9 @@ static void mark_patch(const mark_job *job, int32_t k)
         bend[p] = o->near[k] >> p & 1 ? bend_at(o, k, p + 1) : 0.0f;
     }
     for (int32_t y = y0; y < y1; y++) {
-        for (int32_t x = x0; x < x1; x += RUN) {
+        for (int32_t x = x0; x < x1; x += RLF_PART) {
             ptrdiff_t at = (ptrdiff_t)y * grid->width + x;
-            mark_part(job, at, x + RUN < x1 ? RUN : x1 - x, o->near[k], bend);
+            mark_part(job, at, x + RLF_PART < x1 ? RLF_PART : x1 - x, o->near[k], bend);
         }
     }
 }

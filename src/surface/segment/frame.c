@@ -26,7 +26,6 @@ static rlf_layer_in front_layer(const rlf_reconstruct *stage, const rlf_slot *sl
                        .depth = slot->depth,
                        .mask = off ? NULL : slot->foreground,
                        .spans = off ? NULL : stage->work.front,
-                       .color = stage->has_color ? stage->work.color : NULL,
                        .has_components = stage->has_components,
                        .component_count = stage->component_count};
     if (before != NULL) {
@@ -115,8 +114,7 @@ static void segment_first(rlf_reconstruct *stage, rlf_slot *slot)
     rlf_layer_in in = {.layer = RLF_LAYER_BACKGROUND,
                        .method = stage->def.background_segment,
                        .depth = slot->depth,
-                       .normal = slot->normal,
-                       .color = stage->has_color ? stage->work.color : NULL};
+                       .normal = slot->normal};
     if (before != NULL) {
         in.previous_label = before->label;
         in.previous = before->regions;

@@ -1,5 +1,4 @@
-/* From components to regions: which are kept, which small ones join a neighbour, and their order.
- */
+/* From components to regions: which are kept, and their order. */
 #include "surface/objects/objects.h"
 
 #include <string.h>
@@ -33,83 +32,35 @@ static int32_t find_components(rlf_reconstruct *stage, const rlf_layer_in *in)
         return rlf_objects_find(stage, in);
     }
     rlf_segment_links(stage, in->method, in->depth, in->mask, in->spans);
-    if (in->color != NULL) {
-        rlf_color_cut_links(stage, in->color, in->spans);
-    }
     return rlf_components_find(stage, in->spans);
 }
 
-/* Smallest size that leaves at most region_capacity components, found by bisection. */
+/* Smallest size that leaves at most region_capacity components. */
 static int32_t least_size(const rlf_reconstruct *stage, int32_t component_count)
 {
-    int32_t low = stage->def.min_region_points > 1 ? stage->def.min_region_points : 1;
-    int32_t high = stage->grid.count + 1;
-    high = high > low ? high : low;
-    while (low < high) {
-        int32_t middle = low + (high - low) / 2;
-        int32_t kept = 0;
+    int32_t least = stage->def.min_region_points > 1 ? stage->def.min_region_points : 1;
+    for (;;) {
+        int32_t kept = 0, smallest = INT32_MAX - 1;
         for (int32_t c = 1; c <= component_count; c++) {
-            kept += stage->work.size[c] >= middle ? 1 : 0;
+            int32_t size = stage->work.size[c];
+            kept += size >= least ? 1 : 0;
+            smallest = size >= least ? rlf_least(size, smallest) : smallest;
         }
         if (kept <= stage->def.region_capacity) {
-            high = middle;
-        } else {
-            low = middle + 1;
+            return least;
         }
-    }
-    return low;
-}
-
-static void meet(const rlf_work *work, int32_t a, int32_t b)
-{
-    int32_t *best = work->vote[0];
-    if (a == b || a == 0 || b == 0) {
-        return;
-    }
-    best[a] = best[a] == 0 || work->size[b] > work->size[best[a]] ? b : best[a];
-    best[b] = best[b] == 0 || work->size[a] > work->size[best[b]] ? a : best[b];
-}
-
-/* vote[0][c]: the largest component that touches c in the image. */
-static void find_neighbours(const rlf_reconstruct *stage, int32_t component_count)
-{
-    const rlf_work *work = &stage->work;
-    const rlf_run *runs = work->runs.run;
-    memset(work->vote[0], 0, (size_t)(component_count + 1) * sizeof *work->vote[0]);
-    for (int32_t y = 0; y < stage->grid.height; y++) {
-        int32_t begin = work->runs.first[y], end = work->runs.first[y + 1];
-        int32_t above = y > 0 ? work->runs.first[y - 1] : begin;
-        for (int32_t r = begin; r < end; r++) {
-            if (r > begin && runs[r - 1].x1 == runs[r].x0) {
-                meet(work, runs[r].component, runs[r - 1].component);
-            }
-            while (above < begin && runs[above].x1 <= runs[r].x0) {
-                above++;
-            }
-            for (int32_t a = above; a < begin && runs[a].x0 < runs[r].x1; a++) {
-                meet(work, runs[r].component, runs[a].component);
-            }
-        }
+        least = smallest + 1;
     }
 }
 
-/* map[c] = region number, 0 = dropped. Small pieces join the largest component they touch. */
-static int32_t number_regions(rlf_reconstruct *stage, int32_t component_count, bool merge)
+/* map[c] = region number, 0 = dropped. */
+static int32_t number_regions(rlf_reconstruct *stage, int32_t component_count)
 {
     rlf_work *work = &stage->work;
     int32_t least = least_size(stage, component_count);
     int32_t count = 0;
     for (int32_t c = 1; c <= component_count; c++) {
         work->map[c] = work->size[c] >= least ? ++count : 0;
-    }
-    if (merge && count < component_count) {
-        find_neighbours(stage, component_count);
-        for (int32_t c = 1; c <= component_count; c++) {
-            int32_t b = work->vote[0][c];
-            if (work->size[c] < least && b != 0 && work->size[b] >= least) {
-                work->map[c] = work->map[b];
-            }
-        }
     }
     return count;
 }
@@ -151,7 +102,7 @@ static void dilate(rlf_reconstruct *stage, const rlf_layer_in *in)
 void rlf_layer_segment(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out)
 {
     int32_t components = find_components(stage, in);
-    out->region_count = number_regions(stage, components, in->method >= RLF_SEGMENT_NOISE);
+    out->region_count = number_regions(stage, components);
     number_runs(stage);
     if (in->method == RLF_SEGMENT_THESIS && stage->def.enable_dilation) {
         dilate(stage, in);
@@ -189,21 +140,6 @@ static int32_t region_around(const rlf_layer_out *out, rlf_vec3 p)
     return 0;
 }
 
-static void grow(rlf_region *region, const rlf_run *run, int32_t y)
-{
-    region->point_count += run->x1 - run->x0;
-    region->x0 = run->x0 < region->x0 ? run->x0 : region->x0;
-    region->x1 = run->x1 > region->x1 ? run->x1 : region->x1;
-    region->y0 = y < region->y0 ? y : region->y0;
-    region->y1 = y + 1 > region->y1 ? y + 1 : region->y1;
-}
-
-static rlf_vec3 point_at(const image_grid *grid, const float *depth, int32_t i)
-{
-    double z = depth[i];
-    return rlf_vec3_make(z * grid->ray_x[i], z * grid->ray_y[i], z);
-}
-
 /* map[c] of the pieces: the region that an end of one of their runs is close to, 0 = none. */
 static void find_homes(const rlf_reconstruct *stage, const float *depth, const rlf_layer_out *out)
 {
@@ -215,9 +151,9 @@ static void find_homes(const rlf_reconstruct *stage, const float *depth, const r
             if (run->component >= 0 || work->map[-run->component] > 0) {
                 continue;
             }
-            int32_t home = region_around(out, point_at(&stage->grid, depth, row + run->x0));
+            int32_t home = region_around(out, image_grid_point(&stage->grid, depth, row + run->x0));
             if (home == 0) {
-                home = region_around(out, point_at(&stage->grid, depth, row + run->x1 - 1));
+                home = region_around(out, image_grid_point(&stage->grid, depth, row + run->x1 - 1));
             }
             work->map[-run->component] = home;
         }
@@ -234,7 +170,7 @@ void rlf_region_adopt(rlf_reconstruct *stage, const float *depth, rlf_layer_out 
             int32_t home = run->component < 0 ? work->map[-run->component] : 0;
             if (home > 0) {
                 run->component = home;
-                grow(&out->regions[home - 1], run, y);
+                rlf_region_grow(&out->regions[home - 1], run, y);
             }
         }
     }

@@ -23,17 +23,36 @@ static void clear_region(rlf_region *region, rlf_region_sum *sum, const rlf_laye
     clear_extents(&sum->points);
 }
 
-static void add_run(rlf_region *region, rlf_region_sum *sum, const image_grid *grid,
-                    const float *depth, const rlf_run *run, int32_t y)
+void rlf_region_grow(rlf_region *region, const rlf_run *run, int32_t y)
 {
-    int32_t count = run->x1 - run->x0;
-    ptrdiff_t i = (ptrdiff_t)y * grid->width + run->x0;
-    region->point_count += count;
+    region->point_count += run->x1 - run->x0;
     region->x0 = run->x0 < region->x0 ? run->x0 : region->x0;
     region->x1 = run->x1 > region->x1 ? run->x1 : region->x1;
     region->y0 = y < region->y0 ? y : region->y0;
-    region->y1 = y + 1;
-    rlf_kernel_region_row(depth + i, grid->ray_x + i, grid->ray_y + i, count, &sum->points);
+    region->y1 = y + 1 > region->y1 ? y + 1 : region->y1;
+}
+
+/* Sums of the runs' points, or when `is_extent` how far these go along the axes of their sum. */
+static void add_runs(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out,
+                     bool is_extent)
+{
+    const image_grid *grid = &stage->grid;
+    const rlf_runs *runs = &stage->work.runs;
+    for (int32_t y = 0; y < grid->height; y++) {
+        for (int32_t r = runs->first[y]; r < runs->first[y + 1]; r++) {
+            const rlf_run *run = &runs->run[r];
+            int32_t k = run->component - 1, count = run->x1 - run->x0;
+            const ptrdiff_t i = (ptrdiff_t)y * grid->width + run->x0;
+            const float *z = in->depth + i, *ray_x = grid->ray_x + i, *ray_y = grid->ray_y + i;
+            if (k >= 0 && is_extent) {
+                rlf_region_sum *sum = &stage->work.region_sums[k];
+                rlf_kernel_extent_row(&sum->axes, z, ray_x, ray_y, count, &sum->points);
+            } else if (k >= 0) {
+                rlf_region_grow(&out->regions[k], run, y);
+                rlf_kernel_region_row(z, ray_x, ray_y, count, &stage->work.region_sums[k].points);
+            }
+        }
+    }
 }
 
 static double total(const double lanes[RLF_REGION_LANES])
@@ -130,14 +149,6 @@ static void finish_region(rlf_region *region, rlf_region_sum *sum)
     clear_extents(&sum->points);
 }
 
-static void add_extents(rlf_region_sum *sum, const image_grid *grid, const float *depth,
-                        const rlf_run *run, int32_t y)
-{
-    ptrdiff_t i = (ptrdiff_t)y * grid->width + run->x0;
-    rlf_kernel_extent_row(&sum->axes, depth + i, grid->ray_x + i, grid->ray_y + i,
-                          run->x1 - run->x0, &sum->points);
-}
-
 static void finish_box(rlf_region *region, const rlf_region_sum *sum)
 {
     rlf_aabb along = box_of(&sum->points);
@@ -169,47 +180,17 @@ static void list_points(rlf_reconstruct *stage, rlf_layer_out *out)
     out->point_count = total;
 }
 
-typedef void (*run_fn)(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out,
-                       const rlf_run *run, int32_t y);
-
-static void sum_run(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out,
-                    const rlf_run *run, int32_t y)
-{
-    add_run(&out->regions[run->component - 1], &stage->work.region_sums[run->component - 1],
-            &stage->grid, in->depth, run, y);
-}
-
-static void extend_run(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out,
-                       const rlf_run *run, int32_t y)
-{
-    (void)out;
-    add_extents(&stage->work.region_sums[run->component - 1], &stage->grid, in->depth, run, y);
-}
-
-static void for_runs(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out,
-                     run_fn visit)
-{
-    const rlf_runs *runs = &stage->work.runs;
-    for (int32_t y = 0; y < stage->grid.height; y++) {
-        for (int32_t r = runs->first[y]; r < runs->first[y + 1]; r++) {
-            if (runs->run[r].component > 0) {
-                visit(stage, in, out, &runs->run[r], y);
-            }
-        }
-    }
-}
-
 void rlf_region_measure(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out)
 {
     rlf_region_sum *sums = stage->work.region_sums;
     for (int32_t r = 0; r < out->region_count; r++) {
         clear_region(&out->regions[r], &sums[r], in, &stage->grid);
     }
-    for_runs(stage, in, out, sum_run);
+    add_runs(stage, in, out, false);
     for (int32_t r = 0; r < out->region_count; r++) {
         finish_region(&out->regions[r], &sums[r]);
     }
-    for_runs(stage, in, out, extend_run);
+    add_runs(stage, in, out, true);
     for (int32_t r = 0; r < out->region_count; r++) {
         finish_box(&out->regions[r], &sums[r]);
     }

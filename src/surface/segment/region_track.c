@@ -23,37 +23,6 @@ static const double ABOUT_M = 0.3;
  * own. */
 static const double WHOLE = 0.75;
 
-/* Which of the previous regions has a label: open addressing, at most half full. Entries are
- * indices + 1, 0 = free. */
-typedef struct label_table {
-    const rlf_region *regions;
-    int32_t *entry;
-    uint32_t mask;
-} label_table;
-
-static uint32_t find_entry(const label_table *table, int32_t label)
-{
-    uint32_t at = ((uint32_t)label * 2654435769u) & table->mask; /* Fibonacci hashing */
-    while (table->entry[at] != 0 && table->regions[table->entry[at] - 1].label != label) {
-        at = (at + 1) & table->mask;
-    }
-    return at;
-}
-
-static label_table make_table(const rlf_reconstruct *stage, const rlf_layer_in *in)
-{
-    uint32_t size = 2;
-    while (size < 2 * (uint32_t)in->previous_count) {
-        size *= 2;
-    }
-    label_table table = {in->previous, stage->work.label_table, size - 1};
-    memset(table.entry, 0, size * sizeof *table.entry);
-    for (int32_t k = 0; k < in->previous_count; k++) {
-        table.entry[find_entry(&table, in->previous[k].label)] = k + 1;
-    }
-    return table;
-}
-
 /* `weight` votes of one kind. */
 static void add_votes(int32_t *candidate, int32_t *count, int32_t label, int32_t weight)
 {
@@ -108,24 +77,6 @@ static void vote(rlf_reconstruct *stage, const rlf_layer_in *in, int32_t region_
     }
 }
 
-/* vote[1][k] = the largest region whose candidate is the previous region k, + 1. */
-static void find_successors(rlf_reconstruct *stage, const rlf_layer_in *in,
-                            const label_table *table, const rlf_layer_out *out)
-{
-    const int32_t *candidate = stage->work.vote[0];
-    int32_t *successor = stage->work.vote[1];
-    memset(successor, 0, (size_t)in->previous_count * sizeof *successor);
-    for (int32_t r = 0; r < out->region_count; r++) {
-        int32_t k = table->entry[find_entry(table, candidate[r])] - 1;
-        if (k < 0) {
-            continue;
-        }
-        bool larger = successor[k] == 0 ||
-                      out->regions[r].point_count > out->regions[successor[k] - 1].point_count;
-        successor[k] = larger ? r + 1 : successor[k];
-    }
-}
-
 /* The region with a label; NULL = none. */
 static const rlf_region *find_label(const rlf_region *regions, int32_t count, int32_t label)
 {
@@ -135,6 +86,25 @@ static const rlf_region *find_label(const rlf_region *regions, int32_t count, in
         }
     }
     return NULL;
+}
+
+/* vote[1][k] = the largest region whose candidate is the previous region k, + 1. */
+static void find_successors(rlf_reconstruct *stage, const rlf_layer_in *in,
+                            const rlf_layer_out *out)
+{
+    const int32_t *candidate = stage->work.vote[0];
+    int32_t *successor = stage->work.vote[1];
+    memset(successor, 0, (size_t)in->previous_count * sizeof *successor);
+    for (int32_t r = 0; r < out->region_count; r++) {
+        const rlf_region *before = find_label(in->previous, in->previous_count, candidate[r]);
+        if (before == NULL) {
+            continue;
+        }
+        ptrdiff_t k = before - in->previous;
+        bool larger = successor[k] == 0 ||
+                      out->regions[r].point_count > out->regions[successor[k] - 1].point_count;
+        successor[k] = larger ? r + 1 : successor[k];
+    }
 }
 
 static rlf_track *find_track(const rlf_tracks *tracks, int32_t label)
@@ -253,8 +223,7 @@ static int32_t fresh_label(rlf_reconstruct *stage)
 static void track_by_overlap(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out)
 {
     vote(stage, in, out->region_count);
-    label_table table = make_table(stage, in);
-    find_successors(stage, in, &table, out);
+    find_successors(stage, in, out);
     for (int32_t k = 0; k < in->previous_count; k++) {
         int32_t successor = stage->work.vote[1][k];
         if (successor > 0) {

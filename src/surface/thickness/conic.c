@@ -5,7 +5,6 @@
 
 /* Neighbouring pixels share noise and shape error: two count as one. */
 static const float correlated_samples = 2.0f;
-static const float shape_error_m = 0.003f; /* real bodies are not quite conics */
 /* Before anything is seen, bodies are taken for balls, give or take. */
 static const float ratio_deviation = 0.6f, slope_deviation = 0.2f;
 static const float straight_trust = 0.1f;
@@ -41,11 +40,12 @@ static rlf_kernel_chord_sums sum_samples(const rlf_chord_job *job, const rlf_lin
     float v0 = 0.5f * c->blur[0] * c->metres, v1 = 0.5f * c->blur[1] * c->metres;
     const rlf_kernel_chord ends = {c->begin, c->end};
     float lines = 1.0f / (float)job->step; /* a line is worth those between it and the next */
-    const rlf_kernel_chord_noise noise = {lines * (sigma * sigma + shape_error_m * shape_error_m),
-                                          {lines * v0 * v0, lines * v1 * v1},
-                                          c->metres,
-                                          c->inverse,
-                                          z};
+    const rlf_kernel_chord_noise noise = {
+        lines * (sigma * sigma + RLF_SHAPE_ERROR_M * RLF_SHAPE_ERROR_M),
+        {lines * v0 * v0, lines * v1 * v1},
+        c->metres,
+        c->inverse,
+        z};
     rlf_kernel_chord_sums sums = {0};
     for (int32_t i = 0; i < c->part_count; i++) {
         int32_t end = c->part[i].end;

@@ -15,7 +15,6 @@ static const float crease_least = 1.0f; /* sum of the slopes on both sides */
 static const float rim_slope = 0.5f;    /* a side as steep as this ends at the crease */
 static const float link_jump_m = 0.12f, link_gap_m = 0.2f;
 static const float one_body = 4.0f; /* variance of a conic's rest, of what noise explains */
-static const float shape_error_m = 0.003f;
 
 typedef enum piece_end { END, HIDDEN, BORDER } piece_end;
 
@@ -148,7 +147,7 @@ static bool is_one_body(const pieces *p, piece *s)
         return true;
     }
     float sigma = rlf_kernel_sigma(p->job->noise, front_at(p, (s->begin + s->end) / 2));
-    float explained = sigma * sigma + shape_error_m * shape_error_m;
+    float explained = sigma * sigma + RLF_SHAPE_ERROR_M * RLF_SHAPE_ERROR_M;
     return rlf_chord_solve(&s->chord, &s->chord.own).variance < one_body * explained;
 }
 

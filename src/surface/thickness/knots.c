@@ -10,7 +10,7 @@
 /* Limbs are wide beside a pixel as narrow as this: at 2 m, 8 mm. */
 static const double fine_pixel_rad = 0.004;
 
-enum { CHUNK = 64, LINE = 16 /* of the cache, in floats */ };
+enum { LINE = 16 /* of the cache, in floats */ };
 
 int32_t rlf_knot_step(const image_grid *grid)
 {
@@ -110,7 +110,7 @@ static void spread_part(const rlf_chord_job *job, const rlf_run *run, int32_t y,
 {
     const rlf_slot *slot = job->slot;
     ptrdiff_t row = (ptrdiff_t)y * job->stage->grid.width;
-    float side[2][CHUNK], out[2][CHUNK];
+    float side[2][RLF_PART], out[2][RLF_PART];
     int32_t x0 = 2 * x > run->x0 ? 2 * x : run->x0;
     int32_t x1 = 2 * (x + count) < run->x1 ? 2 * (x + count) : run->x1;
     const rlf_kernel_knots knots = knots_around(job, x, y);
@@ -133,8 +133,8 @@ void rlf_knots_spread(const rlf_chord_job *job, const rlf_run *run, int32_t y)
         return;
     }
     int32_t end = (run->x1 + 1) / 2;
-    for (int32_t x = run->x0 / 2; x < end; x += CHUNK) {
-        spread_part(job, run, y, x, end - x < CHUNK ? end - x : CHUNK);
+    for (int32_t x = run->x0 / 2; x < end; x += RLF_PART) {
+        spread_part(job, run, y, x, end - x < RLF_PART ? end - x : RLF_PART);
     }
 }
 

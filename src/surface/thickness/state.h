@@ -25,7 +25,7 @@ enum { BACKGROUND_TILE = 104 };
 /* At most so many pieces of the background are looked at. */
 enum { RLF_PIECES = 255 };
 
-/* The thickness of static things: see thickness/static.h; NULL planes when it is not wanted. */
+/* The thickness of static things: see thickness/static.c; NULL planes when it is not wanted. */
 typedef struct static_thickness {
     float *depth, *thickness;            /* planes: what is fitted in this round, and found */
     float *done_depth, *done;            /* the same of the last round that came to its end */

@@ -1,8 +1,13 @@
-/* Rounds over the background's pieces. */
-#include "surface/thickness/static.h"
+/* How thick static things are: the background, piece by piece.
+ *
+ * Nobody sees the back of a chair that stands. But a round front bends, and a box shows two faces:
+ * both say where the back is. What touches along a concave crease is two things (Stein, Schoeler,
+ * Papon, Woergoetter 2014: object partitioning using local convexity): so a background falls into
+ * locally convex pieces. Flat ones say nothing about their backs. One of the others is fitted per
+ * frame, and a round over all of them is published as a whole. */
+#include "surface/thickness/thickness.h"
 
 #include "surface/steps.h"
-#include "surface/thickness/thickness.h"
 
 #include <string.h>
 
@@ -41,24 +46,14 @@ static void begin_round(rlf_reconstruct *stage, const background_image *image)
 }
 
 /* The piece's runs, as those of one region, to work.runs. */
-static void make_runs(const rlf_reconstruct *stage, const rlf_block *b, int32_t piece)
+static void make_runs(rlf_reconstruct *stage, int32_t piece)
 {
-    rlf_runs runs = stage->work.runs;
-    int32_t count = 0;
-    for (int32_t y = 0; y < stage->grid.height; y++) {
-        const uint8_t *row = stage->background.thick.piece + (ptrdiff_t)y * stage->grid.width;
-        runs.first[y] = count;
-        for (int32_t x = b->x0; x < b->x1 && y >= b->y0 && y < b->y1; x++) {
-            int32_t begin = x;
-            while (x < b->x1 && row[x] == piece) {
-                x++;
-            }
-            if (x > begin) {
-                runs.run[count++] = (rlf_run){begin, x, 1};
-            }
-        }
+    const uint8_t *pieces = stage->background.thick.piece;
+    int32_t *number = stage->work.component;
+    for (int32_t i = 0; i < stage->grid.count; i++) {
+        number[i] = pieces[i] == piece;
     }
-    runs.first[stage->grid.height] = count;
+    rlf_runs_find(stage, number);
 }
 
 static void fit_box(const rlf_reconstruct *stage, int32_t piece, const static_box *box)
@@ -89,11 +84,11 @@ static void fit_conics(rlf_reconstruct *stage, int32_t piece)
                            .regions = &region,
                            .foreground_region_count = 1};
     rlf_chord_job job = rlf_chord_job_make(stage, &slot, state->depth);
-    const rlf_block block = rlf_block_of(&stage->grid, &region, job.step);
+    const rlf_rect block = rlf_block_of(&stage->grid, &region, job.step);
     job.is_of_people = false;
     job.behind = NULL;
     stage->work.map[1] = 0; /* no plate */
-    make_runs(stage, &block, piece);
+    make_runs(stage, piece);
     rlf_thickness_fit(&job, &block);
     rlf_thickness_write(&job);
 }

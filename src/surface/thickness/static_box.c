@@ -3,7 +3,7 @@
  * One face of a box says nothing about how deep it is, but a second one does: it ends where the box
  * ends. So two faces square to each other are sought, and the box is as large along each axis as
  * what is seen of the piece. What has no face is left to the conics. */
-#include "surface/thickness/static.h"
+#include "surface/thickness/thickness.h"
 
 #include "relief/base.h"
 
@@ -38,11 +38,6 @@ static rlf_vec3 ray_of(const image_grid *grid, ptrdiff_t i)
     return rlf_vec3_make(grid->ray_x[i], grid->ray_y[i], 1.0);
 }
 
-static rlf_vec3 normal_of(float *const normal[3], ptrdiff_t i)
-{
-    return rlf_vec3_make(normal[0][i], normal[1][i], normal[2][i]);
-}
-
 /* Pixels of the piece on a pattern that the samples have room for. */
 static void take_samples(const rlf_reconstruct *stage, float *const normal[3], int32_t piece,
                          shape_search *search)
@@ -57,9 +52,9 @@ static void take_samples(const rlf_reconstruct *stage, float *const normal[3], i
     for (int32_t y = w->y0; y < w->y1; y += step) {
         for (int32_t x = w->x0; x < w->x1; x += step) {
             ptrdiff_t i = (ptrdiff_t)y * stage->grid.width + x;
-            rlf_vec3 n = normal_of(normal, i);
+            rlf_vec3 n = image_grid_vector(normal, i);
             if (state->piece[i] == piece && rlf_dot(n, n) > 0.5) {
-                search->point[search->count] = rlf_scale(ray_of(&stage->grid, i), state->depth[i]);
+                search->point[search->count] = image_grid_point(&stage->grid, state->depth, i);
                 search->normal[search->count++] = n;
             }
         }
@@ -114,7 +109,7 @@ static void add_pixel(const rlf_reconstruct *stage, ptrdiff_t i, rlf_vec3 normal
     bool is_border = x == 0 || y == 0 || x + 1 == grid->width || y + 1 == grid->height;
     bool is_contour = is_border || piece[-1] != piece[0] || piece[1] != piece[0] ||
                       piece[-grid->width] != piece[0] || piece[grid->width] != piece[0];
-    const rlf_vec3 p = rlf_scale(ray_of(grid, i), stage->background.thick.depth[i]);
+    const rlf_vec3 p = image_grid_point(grid, stage->background.thick.depth, i);
     for (int k = 1; k < 3; k++) {
         double best = rlf_dot(box->axis[on], normal), cosine = rlf_dot(box->axis[k], normal);
         on = cosine * cosine > best * best ? k : on;
@@ -167,7 +162,7 @@ static void find_ends(const rlf_reconstruct *stage, float *const normal[3], int3
         for (int32_t x = w->x0; x < w->x1; x++) {
             ptrdiff_t i = (ptrdiff_t)y * stage->grid.width + x;
             if (state->piece[i] == piece) {
-                add_pixel(stage, i, normal_of(normal, i), box, at, bins);
+                add_pixel(stage, i, image_grid_vector(normal, i), box, at, bins);
                 count++;
             }
         }

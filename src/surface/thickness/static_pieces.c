@@ -1,15 +1,14 @@
 /* The background's locally convex pieces. */
-#include "surface/thickness/static.h"
+#include "surface/thickness/thickness.h"
 
 #include "surface/steps.h"
 
 #include <string.h>
 
 enum {
-    ARM = 2,    /* pixels on both sides of a crease whose normals are compared */
-    GROWN = 3,  /* pixels beside it that are given to the pieces again */
-    BANDS = 16, /* of rows, of which one per step is searched for creases */
-    LEAST_POINTS = 150,
+    ARM = 2,        /* pixels on both sides of a crease whose normals are compared */
+    GROWN = 3,      /* pixels beside it that are given to the pieces again */
+    BANDS = 16,     /* of rows, of which one per step is searched for creases */
     IMAGE_SHARE = 5 /* a piece whose rectangle is more than one of so many parts is the room */
 };
 
@@ -82,7 +81,7 @@ static void separate(rlf_reconstruct *stage)
     rlf_segment_links(stage, RLF_SEGMENT_NOISE, smooth, NULL, NULL);
     int32_t components = rlf_components_find(stage, NULL), count = 0;
     for (int32_t c = 1; c <= components; c++) {
-        bool is_large = stage->work.size[c] >= LEAST_POINTS && count < RLF_PIECES;
+        bool is_large = stage->work.size[c] >= stage->def.min_region_points && count < RLF_PIECES;
         number[c] = is_large ? ++count : 0;
     }
     state->piece_count = count;
@@ -118,14 +117,6 @@ static void grow(rlf_reconstruct *stage, float *const normal[3])
     }
 }
 
-static void widen(rlf_rect *w, int32_t x, int32_t y)
-{
-    w->x0 = x < w->x0 ? x : w->x0;
-    w->x1 = x + 1 > w->x1 ? x + 1 : w->x1;
-    w->y0 = y < w->y0 ? y : w->y0;
-    w->y1 = y + 1;
-}
-
 /* Finds the rectangles of the pieces; those of one face, and of parts of the room, are empty. */
 static void find_windows(rlf_reconstruct *stage, float *const normal[3])
 {
@@ -141,7 +132,7 @@ static void find_windows(rlf_reconstruct *stage, float *const normal[3])
             sum[k][c] += normal[c][i];
         }
         sum[k][3] += 1.0f;
-        widen(&state->window[k], i % grid->width, i / grid->width);
+        rlf_rect_add(&state->window[k], i % grid->width, i / grid->width);
     }
     for (int32_t k = 1; k <= state->piece_count; k++) {
         const float *s = sum[k], most = flat_length * s[3];

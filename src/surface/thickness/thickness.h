@@ -57,6 +57,9 @@ typedef struct rlf_conic {
 /* Pixels whose depth differs by more show two bodies, be they a trunk and an arm on it. */
 #define RLF_BODY_STEP_M 0.04f
 
+/* Real bodies are not quite conics. */
+#define RLF_SHAPE_ERROR_M 0.003f
+
 /* Nothing is taken to be thinner, or thicker. */
 #define RLF_THINNEST_M 0.02f
 #define RLF_THICKEST_M 0.6f
@@ -74,11 +77,6 @@ enum { RLF_CHORD_SQUARE = 8 };
 typedef struct rlf_solid {
     float *weight, *middle, *half;
 } rlf_solid;
-
-/* Pixels x0 <= x < x1, y0 <= y < y1. */
-typedef struct rlf_block {
-    int32_t x0, y0, x1, y1;
-} rlf_block;
 
 /* Lines lie `step` pixels apart, and cross at knots, the pixels whose column and row are multiples
  * of it: thickness is smooth, its ends are as sharp as pixels. */
@@ -122,9 +120,9 @@ typedef struct rlf_line {
  */
 rlf_chord_job rlf_chord_job_make(rlf_reconstruct *stage, const rlf_slot *slot, const float *raw);
 /* The region's pixels and the knots around. */
-rlf_block rlf_block_of(const image_grid *grid, const rlf_region *region, int32_t step);
+rlf_rect rlf_block_of(const image_grid *grid, const rlf_region *region, int32_t step);
 /* Fits what is in the block, and writes the thickness of all runs. */
-void rlf_thickness_fit(rlf_chord_job *job, const rlf_block *block);
+void rlf_thickness_fit(rlf_chord_job *job, const rlf_rect *block);
 void rlf_thickness_write(const rlf_chord_job *job);
 
 /* ---- thickness/knots.c ---- */
@@ -143,12 +141,6 @@ float rlf_line_origin(const rlf_chord_job *job, int32_t index);
 /* Finds the chords of the line and measures them. Returns their number. */
 int32_t rlf_chords_cut(const rlf_chord_job *job, const rlf_line *line, rlf_chord *out);
 
-/* ---- thickness/pool.c ---- */
-/* Adds to each chord what its neighbours on the lines beside it say about its shape. */
-void rlf_chords_pool(const rlf_chord_job *job, int32_t line_count);
-/* Tells each chord where the rows above and below have the middle of its body. */
-void rlf_chords_align(const rlf_chord_job *job, int32_t row_count);
-
 /* ---- thickness/conic.c ---- */
 /* Fills the sums of a chord whose ends and parts are known; false when it shows nothing. */
 bool rlf_chord_measure(const rlf_chord_job *job, const rlf_line *line, rlf_chord *chord);
@@ -157,5 +149,39 @@ rlf_conic rlf_chord_solve(const rlf_chord *chord, const rlf_chord_moments *momen
 rlf_chord_middle rlf_chord_middle_seen(const rlf_chord *chord);
 /* Adds the solid of the conic to the knots of the chord. */
 void rlf_chord_paint(const rlf_chord_job *job, const rlf_line *line, const rlf_chord *chord);
+
+/* ---- thickness/static.c ---- */
+/* One step of a round, if there is anything to do; after the frame's own thickness. */
+void static_advance(rlf_reconstruct *stage);
+/* The thickness of the newest image, metres along z, 0 = not known; NULL when it is not wanted or
+ * there is no image. */
+const float *static_newest(const rlf_reconstruct *stage);
+void static_reset(static_thickness *state);
+
+/* ---- thickness/static_pieces.c ---- */
+/* One step, from 0, of finding the pieces of state->depth, whose normals are given; true when it
+ * was the last. */
+bool static_find_pieces(rlf_reconstruct *stage, float *const normal[3], int32_t step);
+
+/* ---- thickness/static_box.c ---- */
+typedef enum static_shape {
+    STATIC_UNKNOWN = 0, /* one face, or no convex thing */
+    STATIC_BOX,
+    STATIC_ROUND /* no part of it is flat */
+} static_shape;
+
+/* axis[k] . p is from end[k][0] to end[k][1]; the first two axes are normals of faces that are
+ * seen. An open end is cut by the border of the image: it may go on. Camera frame, metres. */
+typedef struct static_box {
+    rlf_vec3 axis[3];
+    double end[3][2];
+    bool is_open[3][2];
+} static_box;
+
+/* What the piece of state->depth is like; *out is written where it is a box. */
+static_shape static_find_shape(const rlf_reconstruct *stage, float *const normal[3], int32_t piece,
+                               static_box *out);
+/* Depth at which the ray (x, y, 1) leaves the box that it has entered. */
+double static_box_exit(const static_box *box, rlf_vec3 ray);
 
 #endif

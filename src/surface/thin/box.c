@@ -11,11 +11,16 @@ slab_view slab_look(const slab *s)
     return view;
 }
 
-rlf_vec3 slab_local(const slab_view *view, rlf_vec3 p)
+slab_point slab_local(const slab_view *view, rlf_vec3 p)
 {
-    rlf_vec3 d = rlf_sub(p, view->centre);
-    return rlf_vec3_make(rlf_dot(d, view->axis[0]), rlf_dot(d, view->axis[1]),
-                         rlf_dot(d, view->axis[2]));
+    const rlf_vec3 d = rlf_sub(p, view->centre);
+    slab_point at = {.square = 0.0};
+    for (int k = 0; k < 3; k++) {
+        at.q[k] = rlf_dot(d, view->axis[k]);
+        at.beyond[k] = rlf_max((at.q[k] < 0.0 ? -at.q[k] : at.q[k]) - view->half[k], 0.0);
+        at.square += at.beyond[k] * at.beyond[k];
+    }
+    return at;
 }
 
 bool slab_cut_ray(const slab_view *view, double x, double y, double *enter, double *leave)
@@ -41,14 +46,7 @@ bool slab_cut_ray(const slab_view *view, double x, double y, double *enter, doub
 
 bool slab_is_near(const slab_view *view, rlf_vec3 p, double metres)
 {
-    rlf_vec3 local = slab_local(view, p);
-    const double q[3] = {local.x, local.y, local.z};
-    double square = 0.0;
-    for (int k = 0; k < 3; k++) {
-        double beyond = rlf_max((q[k] < 0.0 ? -q[k] : q[k]) - view->half[k], 0.0);
-        square += beyond * beyond;
-    }
-    return square < metres * metres;
+    return slab_local(view, p).square < metres * metres;
 }
 
 rlf_rect slab_window(const image_grid *grid, const slab_view *view, int32_t margin)

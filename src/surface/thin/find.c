@@ -12,7 +12,6 @@
 enum {
     SEED_PX = 4, /* seeds are so far apart */
     FRAMES = 4,  /* each row of them is looked at in one of so many */
-    ARM_PX = 3,  /* normals so far from a seed are its own */
     STEP_PX = 2, /* patches are grown over every second pixel of every second row */
     LEAST = 24,  /* pixels of a patch, of those */
     MOST = SLAB_PATCH,
@@ -20,18 +19,21 @@ enum {
     A_PATCH = 64,          /* its planes cost as much as so many pixels */
     FIRST_FIT = 12,
     TURNS = 15,
-    EDGE_PX = 3 /* a step so near the patch is its own */
+    EDGE_PX = 3,     /* a step so near the patch is its own */
+    ARM_PX = EDGE_PX /* and normals so far from a seed are */
 };
 
 static const double like_seed = 0.99; /* cosine */
 static const double like_plane = 0.978;
 static const double flat_m = 0.006, flat_rms_m = 0.0035;
-static const double step_m = 0.03;  /* behind the plane */
 static const double side_m = 0.045; /* a thin side is narrower */
 static const double least_area_m2 = 0.015, least_full = 0.7;
 static const double least_facing = 0.2; /* sine of the angle between the face and the ray */
 static const double least_steps = 0.4, least_ends = 0.8;
 static const double first_half_m = 0.01; /* half a slab's thickness, before it is seen */
+
+/* To the neighbours. */
+static const int32_t way[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
 
 /* A patch of one region. */
 typedef struct patch {
@@ -44,30 +46,18 @@ typedef struct patch {
     double rms;
 } patch;
 
-static rlf_vec3 point_at(const image_grid *grid, const rlf_slot *slot, ptrdiff_t i)
-{
-    double z = slot->depth[i];
-    return rlf_vec3_make(z * grid->ray_x[i], z * grid->ray_y[i], z);
-}
-
-static rlf_vec3 normal_at(const rlf_slot *slot, ptrdiff_t i)
-{
-    return rlf_vec3_make(slot->normal[0][i], slot->normal[1][i], slot->normal[2][i]);
-}
-
 static bool is_seed(const image_grid *grid, const rlf_slot *slot, int32_t label, int32_t x,
                     int32_t y)
 {
-    static const int32_t arm[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
     if (x < ARM_PX || y < ARM_PX || x + ARM_PX >= grid->width || y + ARM_PX >= grid->height ||
         slot->label[i] != label || slot->reason[i] != RLF_REASON_OK) {
         return false;
     }
-    rlf_vec3 n = normal_at(slot, i);
+    rlf_vec3 n = image_grid_vector(slot->normal, i);
     for (int k = 0; k < 4; k++) {
-        ptrdiff_t o = i + ARM_PX * (arm[k][0] + (ptrdiff_t)arm[k][1] * grid->width);
-        if (slot->label[o] != label || rlf_dot(n, normal_at(slot, o)) < like_seed) {
+        ptrdiff_t o = i + ARM_PX * (way[k][0] + (ptrdiff_t)way[k][1] * grid->width);
+        if (slot->label[o] != label || rlf_dot(n, image_grid_vector(slot->normal, o)) < like_seed) {
             return false;
         }
     }
@@ -76,7 +66,7 @@ static bool is_seed(const image_grid *grid, const rlf_slot *slot, int32_t label,
 
 static void add(patch *p, ptrdiff_t i)
 {
-    rlf_vec3 q = point_at(p->grid, p->slot, i);
+    rlf_vec3 q = image_grid_point(p->grid, p->slot->depth, i);
     const double at[3] = {q.x, q.y, q.z};
     p->pixel[p->count++] = (int32_t)i;
     for (int r = 0; r < 3; r++) {
@@ -112,25 +102,25 @@ static void fit(patch *p)
 /* What was filled has the normal of what was seen beside it. */
 static bool is_on_plane(const patch *p, ptrdiff_t i)
 {
-    double off = rlf_dot(p->normal, rlf_sub(point_at(p->grid, p->slot, i), p->centre));
+    double off =
+        rlf_dot(p->normal, rlf_sub(image_grid_point(p->grid, p->slot->depth, i), p->centre));
     bool is_like = p->slot->reason[i] != RLF_REASON_OK ||
-                   rlf_dot(p->normal, normal_at(p->slot, i)) > like_plane;
+                   rlf_dot(p->normal, image_grid_vector(p->slot->normal, i)) > like_plane;
     return off < flat_m && off > -flat_m && is_like;
 }
 
 static void grow(patch *p, uint8_t *visited, int32_t x, int32_t y)
 {
-    static const int32_t way[4][2] = {{-STEP_PX, 0}, {STEP_PX, 0}, {0, -STEP_PX}, {0, STEP_PX}};
     const image_grid *grid = p->grid;
     ptrdiff_t seed = (ptrdiff_t)y * grid->width + x;
-    p->centre = point_at(p->grid, p->slot, seed);
-    p->normal = normal_at(p->slot, seed);
+    p->centre = image_grid_point(p->grid, p->slot->depth, seed);
+    p->normal = image_grid_vector(p->slot->normal, seed);
     visited[seed] = 1;
     add(p, seed);
     for (int32_t next = 0; next < p->count && p->count + 4 <= MOST; next++) {
         int32_t i = p->pixel[next], u = i % grid->width, v = i / grid->width;
         for (int k = 0; k < 4; k++) {
-            int32_t a = u + way[k][0], b = v + way[k][1];
+            int32_t a = u + STEP_PX * way[k][0], b = v + STEP_PX * way[k][1];
             ptrdiff_t o = (ptrdiff_t)b * grid->width + a;
             if (a >= 0 && b >= 0 && a < grid->width && b < grid->height && visited[o] == 0 &&
                 p->slot->label[o] == p->label && is_on_plane(p, o)) {
@@ -170,12 +160,12 @@ static void look_out(const patch *p, int32_t i, int32_t dx, int32_t dy, int32_t 
         ptrdiff_t o = (ptrdiff_t)v * grid->width + u;
         double seen = p->slot->depth[o], plane = depth_of_plane(p, o);
         double farther = seen - before - rlf_max(plane - plane_before, 0.0);
-        if (p->slot->foreground[o] == 0 || farther > step_m) {
+        if (p->slot->foreground[o] == 0 || farther > THIN_NEAR_M) {
             *steps += k <= EDGE_PX;
             *sides += k > EDGE_PX;
             return;
         }
-        if (seen < before - step_m) {
+        if (seen < before - THIN_NEAR_M) {
             return;
         }
         before = seen;
@@ -185,7 +175,6 @@ static void look_out(const patch *p, int32_t i, int32_t dx, int32_t dy, int32_t 
 
 static bool has_outline(const patch *p, const uint8_t *mine)
 {
-    static const int32_t way[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     const image_grid *grid = p->grid;
     int32_t ends = 0, steps = 0, sides = 0;
     for (int32_t n = 0; n < p->count; n++) {
@@ -224,7 +213,7 @@ static rectangle surround(const patch *p)
         r.axis[0] = rlf_add(rlf_scale(u, c), rlf_scale(v, s));
         r.axis[1] = rlf_sub(rlf_scale(v, c), rlf_scale(u, s));
         for (int32_t n = 0; n < p->count; n++) {
-            rlf_vec3 d = rlf_sub(point_at(p->grid, p->slot, p->pixel[n]), p->centre);
+            rlf_vec3 d = rlf_sub(image_grid_point(p->grid, p->slot->depth, p->pixel[n]), p->centre);
             for (int k = 0; k < 2; k++) {
                 double at = rlf_dot(d, r.axis[k]);
                 r.low[k] = rlf_min(r.low[k], at);
@@ -317,7 +306,8 @@ static void mark_known(const thin_in *in, thin *state)
         for (int32_t y = w.y0 + w.y0 % STEP_PX; y < w.y1; y += STEP_PX) {
             for (int32_t x = w.x0; x < w.x1; x++) {
                 ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-                bool is_near = slab_is_near(&view, point_at(grid, in->before, i), side_m);
+                bool is_near =
+                    slab_is_near(&view, image_grid_point(grid, in->before->depth, i), side_m);
                 state->visited[i] = is_near ? 1 : state->visited[i];
             }
         }

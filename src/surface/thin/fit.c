@@ -63,26 +63,7 @@ typedef struct on_face {
     double off;         /* metres from the face, squared */
 } on_face;
 
-/* A point as the box has it. */
-typedef struct in_box {
-    double q[3];      /* in its own axes, metres */
-    double beyond[3]; /* of its extents, metres */
-    double facing[3]; /* cosines of the view's direction and the axes */
-    double square;    /* of the distance to it */
-} in_box;
-
-static in_box look_from_box(const slab_view *view, rlf_vec3 p)
-{
-    const rlf_vec3 local = slab_local(view, p);
-    in_box at = {.q = {local.x, local.y, local.z}};
-    for (int k = 0; k < 3; k++) {
-        at.beyond[k] = rlf_max((at.q[k] < 0.0 ? -at.q[k] : at.q[k]) - view->half[k], 0.0);
-        at.square += at.beyond[k] * at.beyond[k];
-    }
-    return at;
-}
-
-static void look_along_view(const slab_view *view, rlf_vec3 p, in_box *at)
+static void look_along_view(const slab_view *view, rlf_vec3 p, slab_point *at)
 {
     const rlf_vec3 way = rlf_normalize(p);
     for (int k = 0; k < 3; k++) {
@@ -91,7 +72,7 @@ static void look_along_view(const slab_view *view, rlf_vec3 p, in_box *at)
 }
 
 /* The nearest among those that the camera sees at an angle whose sine is between the bounds. */
-static on_face nearest_face(const slab_view *view, const in_box *at, double least, double most)
+static on_face nearest_face(const slab_view *view, const slab_point *at, double least, double most)
 {
     on_face best = {.axis = -1, .off = 1e9};
     for (int k = 0; k < 3; k++) {
@@ -110,7 +91,7 @@ static on_face nearest_face(const slab_view *view, const in_box *at, double leas
 
 /* Noise puts points of the other faces on a face that is seen at a low angle, or is about to come
  * into view: those that are far behind these are on it. */
-static on_face face_of(const slab_view *view, const in_box *at)
+static on_face face_of(const slab_view *view, const slab_point *at)
 {
     const double low = 0.15, hidden = -0.2, far_m = 0.02;
     on_face face = nearest_face(view, at, low, 1.0);
@@ -127,7 +108,7 @@ static void add_pixel(equations *sum, ptrdiff_t i)
     const image_grid *grid = sum->in->grid;
     double z = sum->in->depth[i], x = grid->ray_x[i], y = grid->ray_y[i], row[N];
     rlf_vec3 p = rlf_vec3_make(z * x, z * y, z);
-    in_box at = look_from_box(&sum->view, p);
+    slab_point at = slab_local(&sum->view, p);
     if (!(z > 0.0) || at.square > thing_m * thing_m) {
         return;
     }

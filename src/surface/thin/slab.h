@@ -16,12 +16,20 @@ typedef struct slab_view {
     double half[3];
 } slab_view;
 
+/* A point as the box has it. */
+typedef struct slab_point {
+    double q[3];      /* in its own axes, metres */
+    double beyond[3]; /* of its extents, metres */
+    double facing[3]; /* cosines of the view's direction and the axes */
+    double square;    /* of the distance to it */
+} slab_point;
+
 /* ---- box.c ---- */
 slab_view slab_look(const slab *s);
 /* Depths at which the ray (x, y, 1) enters and leaves it; false when it misses it. */
 bool slab_cut_ray(const slab_view *view, double x, double y, double *enter, double *leave);
-/* Where p is in the box's own axes. */
-rlf_vec3 slab_local(const slab_view *view, rlf_vec3 p);
+/* All but `facing`, which is 0. */
+slab_point slab_local(const slab_view *view, rlf_vec3 p);
 /* Whether p is in the box or less than so many metres from it. */
 bool slab_is_near(const slab_view *view, rlf_vec3 p, double metres);
 /* The pixels that it covers and `margin` around; none when part of it is beside or behind the
@@ -42,11 +50,5 @@ slab_fit slab_improve(const thin_in *in, slab *s);
 /* ---- find.c ---- */
 /* Finds flat things in the foreground of the frame before that are no slabs yet. */
 void slab_find(const thin_in *in, thin *state);
-
-/* ---- lost.c ---- */
-/* Expects what moved in the frame before where it is now though nothing is seen there. */
-void thin_expect_moved(const thin_in *in, thin *state);
-/* A slab is known to be at pixel k, at depth z, if nothing is seen there. */
-void thin_expect_slab(thin *state, ptrdiff_t k, float z);
 
 #endif

@@ -2,9 +2,9 @@
  *
  * A driver takes a band away on both sides of an edge; where a thing is a few pixels wide, the
  * bands meet and nothing of it is left. And what is seen of its edge does not say how far it goes
- * on behind that. So flat things are followed as boxes (slab.h), and what is narrow goes on as it
- * moved (lost.c). Once a frame thin_track says where both must be though nothing is seen; the hole
- * filling asks for it, and thin_write tells what a slab is known to be where it is seen. */
+ * on behind that. So flat things are followed as boxes (slab.h). Once a frame thin_track says where
+ * they must be though nothing is seen; the hole filling asks for it, and thin_write tells what a
+ * slab is known to be where it is seen. */
 #ifndef RLF_SURFACE_THIN_THIN_H
 #define RLF_SURFACE_THIN_THIN_H
 
@@ -14,6 +14,8 @@
 /* Metres. What is farther off is another thing; half a slab's width at least, and its thickness at
  * most. */
 #define THIN_STEP_M 0.04
+/* Metres: what is seen so near a slab is it. */
+#define THIN_NEAR_M 0.03
 /* Metres: nothing is seen nearer than this. */
 #define THIN_LEAST_Z 0.1
 
@@ -29,13 +31,6 @@ typedef struct slab {
                                        has seen past it */
 } slab;
 
-/* A thing that must be where nothing is seen. */
-typedef struct thin_expected {
-    float depth;   /* 0 = none */
-    int32_t from;  /* its pixel in the frame before */
-    int32_t ticks; /* 1/100 s in which it was not seen */
-} thin_expected;
-
 /* NULL planes when they are not wanted. */
 typedef struct thin {
     slab item[SLABS];
@@ -43,12 +38,10 @@ typedef struct thin {
     int32_t frame;           /* of some, see thin/find.c */
     int32_t region;          /* of the foreground at which the next search begins */
     int32_t *patch;          /* SLAB_PATCH pixels */
-    thin_expected *expected; /* plane */
-    int32_t *expected_pixel; /* where there is something in it */
+    float *expected;         /* plane: depth of the slab that must be there; 0 = none */
+    int32_t *expected_pixel; /* where there is one */
     int32_t expected_count;
-    uint8_t *lost_ticks; /* plane: `ticks` of what a gap was filled with */
-    int32_t *lost_from;  /* plane: and `from` */
-    uint8_t *visited;    /* plane, scratch of thin/find.c */
+    uint8_t *visited; /* plane, scratch of thin/find.c */
 } thin;
 
 /* What a frame is tracked from. Depth as the sensor gave it, mixed pixels off. */
@@ -60,19 +53,13 @@ typedef struct thin_in {
     const float *depth;     /* plane */
 } thin_in;
 
-/* Finds, follows and forgets slabs; says where they and what else is narrow must be. */
+/* Finds, follows and forgets slabs; says where they must be though nothing is seen. */
 void thin_track(const thin_in *in, thin *state);
 
-/* Depth of the thing that is lost in a gap about pixel i, 0 = none. The gap goes along `step` from
- * one valid pixel, so many steps before i, to another one so many after it; both show what is
- * behind the thing, the nearer one at depth `nearest`. Pixels of other rows may be asked at the
- * same time. */
-float thin_find_lost(const thin *state, ptrdiff_t i, ptrdiff_t step, const int32_t to_ends[2],
-                     float nearest);
+/* Depth of the slab that is lost at pixel i of a gap, whose nearer end is at depth `nearest`; 0 =
+ * none. */
+float thin_find_lost(const thin *state, ptrdiff_t i, float nearest);
 
-/* What is lost shows no motion: where none was found it goes on as `before`. */
-void thin_keep_velocity(const thin *state, const rlf_slot *before, const image_grid *grid,
-                        rlf_slot *slot);
 /* Makes the pixels of the slabs as thick as these are there and, edge-on, as fast. `behind`: depth
  * of the background, a plane. */
 void thin_write(const thin *state, const image_grid *grid, const float *behind, rlf_slot *slot);
@@ -84,7 +71,7 @@ void thin_reset(thin *state, const image_grid *grid);
 /* Whether something is expected at pixel k. */
 static inline bool thin_is_expected(const thin *state, ptrdiff_t k)
 {
-    return state->expected_count > 0 && state->expected[k].depth > 0.0f;
+    return state->expected_count > 0 && state->expected[k] > 0.0f;
 }
 
 #endif

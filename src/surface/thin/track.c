@@ -118,7 +118,10 @@ static void expect(const thin_in *in, const slab *s, thin *state)
             double enter, leave;
             if (!(in->depth[i] > 0.0f) &&
                 slab_cut_ray(&view, grid->ray_x[i], grid->ray_y[i], &enter, &leave)) {
-                thin_expect_slab(state, i, (float)enter);
+                if (!(state->expected[i] > 0.0f)) {
+                    state->expected_pixel[state->expected_count++] = (int32_t)i;
+                }
+                state->expected[i] = (float)enter;
             }
         }
     }
@@ -137,10 +140,19 @@ void thin_track(const thin_in *in, thin *state)
         }
     }
     state->count = kept;
-    thin_expect_moved(in, state);
+    for (int32_t i = 0; i < state->expected_count; i++) {
+        state->expected[state->expected_pixel[i]] = 0.0f;
+    }
+    state->expected_count = 0;
     for (int32_t i = 0; i < state->count; i++) {
         expect(in, &state->item[i], state);
     }
+}
+
+float thin_find_lost(const thin *state, ptrdiff_t i, float nearest)
+{
+    bool is_there = thin_is_expected(state, i) && state->expected[i] < nearest + (float)THIN_NEAR_M;
+    return is_there ? state->expected[i] : 0.0f;
 }
 
 void thin_reset(thin *state, const image_grid *grid)
@@ -148,7 +160,6 @@ void thin_reset(thin *state, const image_grid *grid)
     state->count = state->expected_count = state->frame = state->region = 0;
     if (state->expected != NULL) {
         memset(state->expected, 0, (size_t)grid->count * sizeof *state->expected);
-        memset(state->lost_ticks, 0, (size_t)grid->count);
     }
 }
 
@@ -161,8 +172,6 @@ void thin_allocate(thin *state, rlf_arena *arena, const rlf_reconstruct_def *def
         state->patch = arena_take(arena, SLAB_PATCH, sizeof *state->patch);
         state->expected = arena_take(arena, n, sizeof *state->expected);
         state->expected_pixel = arena_take(arena, n, sizeof *state->expected_pixel);
-        state->lost_ticks = arena_take(arena, n, 1);
-        state->lost_from = arena_take(arena, n, sizeof *state->lost_from);
         state->visited = arena_lend(arena, n, 1);
     }
 }

@@ -2,7 +2,6 @@
 #include "surface/thickness/thickness.h"
 #include "surface/thin/slab.h"
 
-static const double thing_m = 0.03;
 static const double edge_on = 0.2;  /* sine of the angle between the face and the view */
 static const double slowest = 0.08; /* m/s: what is slower may rest */
 
@@ -36,9 +35,9 @@ static void write_pixel(const writer *w, int32_t x, int32_t y)
     const ptrdiff_t i = (ptrdiff_t)y * w->grid->width + x;
     const float z = w->slot->depth[i], behind = w->behind[i];
     const double u = w->grid->ray_x[i], v = w->grid->ray_y[i];
-    const rlf_vec3 p = rlf_vec3_make((double)z * u, (double)z * v, (double)z);
+    const rlf_vec3 p = image_grid_point(w->grid, w->slot->depth, i);
     double enter, leave;
-    if (!(z > 0.0f) || !slab_is_near(&w->view, p, thing_m) ||
+    if (!(z > 0.0f) || !slab_is_near(&w->view, p, THIN_NEAR_M) ||
         (!slab_cut_ray(&w->view, u, v, &enter, &leave) &&
          !slab_cut_ray(&w->wide, u, v, &enter, &leave))) {
         return;
