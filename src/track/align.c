@@ -1,4 +1,5 @@
 /* Coarse to fine alignment of a frame's points with a prediction. */
+#include "math/rigid.h"
 #include "track/tracker.h"
 #include "track/ways.h"
 
@@ -58,11 +59,8 @@ static double median_of(const track_sums *sums)
 /* Rotation vector and translation of a pose. */
 static void motion_of(const rlf_pose *T, double x[6])
 {
-    const double sign = T->q.w < 0.0 ? -1.0 : 1.0;
-    const rlf_vec3 axis = {sign * T->q.x, sign * T->q.y, sign * T->q.z};
-    const double half = rlf_length(axis);
-    const double scale = half > 1e-9 ? 2.0 * rlf_atan2(half, sign * T->q.w) / half : 2.0;
-    const double all[6] = {scale * axis.x, scale * axis.y, scale * axis.z, T->p.x, T->p.y, T->p.z};
+    const rlf_vec3 turn = math_rotation_vector(T->q);
+    const double all[6] = {turn.x, turn.y, turn.z, T->p.x, T->p.y, T->p.z};
     memcpy(x, all, sizeof(all));
 }
 

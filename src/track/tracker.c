@@ -4,6 +4,7 @@
 #include "base/cookie.h"
 #include "base/time_range.h"
 #include "camera/checks.h"
+#include "math/rigid.h"
 
 #define GUESS_GAP_NS 200000000 /* after a longer gap nobody knows how the camera goes on */
 
@@ -152,11 +153,7 @@ rlf_pose rlf_tracker_guess(const rlf_tracker *tracker, int64_t time_ns)
     const double share = (double)next / (double)last;
     const rlf_pose back = rlf_pose_invert(&tracker->before);
     const rlf_pose step = rlf_pose_mul(&back, &tracker->pose);
-    const double sign = step.q.w < 0.0 ? -1.0 : 1.0;
-    const rlf_vec3 axis = rlf_scale(rlf_vec3_make(step.q.x, step.q.y, step.q.z), sign);
-    const double half = rlf_length(axis);
-    const double angle = 2.0 * rlf_atan2(half, sign * step.q.w);
-    const rlf_vec3 turn = half > 0.0 ? rlf_scale(axis, share * angle / half) : axis;
+    const rlf_vec3 turn = rlf_scale(math_rotation_vector(step.q), share);
     const rlf_pose go = {rlf_scale(step.p, share), rlf_quat_from_rotation_vector(turn)};
     rlf_pose pose = rlf_pose_mul(&tracker->pose, &go);
     pose.q = rlf_quat_normalize(pose.q);

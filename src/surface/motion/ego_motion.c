@@ -11,7 +11,7 @@
 #include "surface/stage.h"
 
 #include "kernel/kernel.h"
-#include "math/solve_six.h"
+#include "math/rigid.h"
 
 #include <math.h>
 
@@ -85,10 +85,10 @@ static double sigma_at(const ego_job *job, int32_t k)
 /* One step of Gauss and Newton. A direction that hardly any point determines goes back to rest. */
 static void improve(const ego_job *job, double gate, rlf_pose *pose)
 {
-    const double twice = pose->q.w < 0.0 ? -2.0 : 2.0; /* small turns */
-    const double now[6] = {pose->p.x,         pose->p.y,         pose->p.z,
-                           twice * pose->q.x, twice * pose->q.y, twice * pose->q.z};
-    double a[6][6] = {{0}}, b[6] = {0}, x[6], total = 0.0;
+    const rlf_vec3 turned = math_rotation_vector(pose->q);
+    const double now[6] = {pose->p.x, pose->p.y, pose->p.z, turned.x, turned.y, turned.z};
+    math_rigid_sums sums = {.weight = 0.0};
+    double x[6];
     for (int32_t k = 0; k < job->view->count; k++) {
         rlf_vec3 p, n;
         double off, sigma = sigma_at(job, k);
@@ -96,22 +96,14 @@ static void improve(const ego_job *job, double gate, rlf_pose *pose)
         if (!distance_to(job, k, pose, &p, &n, &off) || off > bound || off < -bound) {
             continue;
         }
-        double t = 1.0 - off * off / (bound * bound), weight = t * t * 1e-6 / (sigma * sigma);
-        rlf_vec3 turn = rlf_cross(p, n);
-        const double row[6] = {n.x, n.y, n.z, turn.x, turn.y, turn.z};
-        total += weight;
-        for (int r = 0; r < 6; r++) {
-            b[r] += weight * row[r] * off;
-            for (int c = 0; c <= r; c++) {
-                a[r][c] += weight * row[r] * row[c];
-            }
-        }
+        const double t = 1.0 - off * off / (bound * bound);
+        math_rigid_add(&sums, n, rlf_cross(p, n), off, t * t * 1e-6 / (sigma * sigma));
     }
     for (int r = 0; r < 6; r++) {
-        a[r][r] += ridge * (total + 1.0);
-        b[r] -= ridge * (total + 1.0) * now[r];
+        sums.a[r][r] += ridge * (sums.weight + 1.0);
+        sums.b[r] -= ridge * (sums.weight + 1.0) * now[r];
     }
-    math_solve_six(a, b, x);
+    (void)math_rigid_solve(&sums, 0.0, x);
     const rlf_pose step = {{x[0], x[1], x[2]},
                            rlf_quat_from_rotation_vector(rlf_vec3_make(x[3], x[4], x[5]))};
     *pose = rlf_pose_mul(&step, pose);
@@ -159,39 +151,23 @@ static void ask(const ego_job *job, const rlf_pose *pose, ego_part parts[PARTS])
 }
 
 /* Whether points of the parts that are marked determine all six directions of a motion. A board is
- * one plane: it takes the others from what is at rest. By Cholesky's steps on the normal equations
- * with a diagonal of 1: each is what a direction tells that those before it do not. */
+ * one plane: it takes the others from what is at rest. */
 static bool is_determined(const ego_job *job, const bool marked[PARTS])
 {
-    double a[6][6] = {{0}}, total = 0.0;
+    math_rigid_sums sums = {.weight = 0.0};
+    double x[6];
     for (int32_t k = 0; k < job->view->count; k++) {
         const rlf_ego_point *from = &job->view->points[k];
         const double sigma = sigma_at(job, k);
-        if (!marked[part_index(job->grid, from->pixel)]) {
-            continue;
-        }
-        const rlf_vec3 n = from->normal;
-        const rlf_vec3 turn = rlf_scale(rlf_cross(from->point, n), 1.0 / from->point.z);
-        const double row[6] = {n.x, n.y, n.z, turn.x, turn.y, turn.z};
-        total += 1.0 / (sigma * sigma);
-        for (int r = 0; r < 6; r++) {
-            for (int c = 0; c <= r; c++) {
-                a[r][c] += row[r] * row[c] / (sigma * sigma);
-            }
+        if (marked[part_index(job->grid, from->pixel)]) {
+            const rlf_vec3 turn = rlf_cross(from->point, from->normal);
+            math_rigid_add(&sums, from->normal, rlf_scale(turn, 1.0 / from->point.z), 0.0,
+                           1.0 / (sigma * sigma));
         }
     }
-    bool is = true;
-    for (int r = 0; r < 6 && is; r++) {
-        const double whole = a[r][r];
-        for (int c = 0; c < r; c++) {
-            for (int k = 0; k < c; k++) {
-                a[r][c] -= a[r][k] * a[c][k];
-            }
-            a[r][c] /= a[c][c];
-            a[r][r] -= a[r][c] * a[r][c];
-        }
-        is = whole > least_share * total && a[r][r] > least_own * whole;
-        a[r][r] = is ? sqrt(a[r][r]) : 1.0;
+    bool is = math_rigid_solve(&sums, least_own, x);
+    for (int r = 0; r < 6; r++) {
+        is = is && sums.a[r][r] > least_share * sums.weight;
     }
     return is;
 }

@@ -6,6 +6,7 @@
 #ifndef RLF_SURFACE_MOTION_KEYFRAME_H
 #define RLF_SURFACE_MOTION_KEYFRAME_H
 
+#include "math/rigid.h"
 #include "surface/stage.h"
 
 enum {
@@ -78,9 +79,8 @@ bool keyframe_take(const keyframe_view *view, const rlf_rect *rect, int32_t size
 /* ---- register.c ---- */
 /* How a keyframe fits a frame. */
 typedef struct keyframe_fit {
-    double x[6];    /* the pose */
-    double a[6][6]; /* its information, lower triangle */
-    double b[6];
+    double x[6]; /* the pose */
+    math_rigid_sums sums;
     double cost;               /* squares of all rows, each no more than what is hidden costs */
     int32_t points, rims;      /* seen: neither hidden nor without depth */
     int32_t agree, rims_agree; /* of them */

@@ -7,10 +7,7 @@
  * (motion/cells.c). What is not significant against the sensor's noise is exactly 0.
  */
 #include "surface/motion/keyframe.h"
-#include "surface/motion/keyframe.h"
 #include "surface/motion/motion.h"
-
-#include "math/solve_six.h"
 
 #include <string.h>
 
@@ -21,6 +18,7 @@ static const double longest_gap_s = 0.2;
 static const double normal_error = 0.05;
 /* Squared sum of 6 normal variables that chance exceeds once in 400 times. */
 static const float significant_6 = 20.1f;
+
 /* The published planes hold only what was written into the slot three frames ago. */
 static void clear_velocity(const image_grid *grid, rlf_slot *slot)
 {
@@ -50,17 +48,6 @@ static bool speed_beyond(const rlf_flow *job, ptrdiff_t i, rlf_vec3 p, rlf_vec3 
     return rlf_dot(step, step) < 4.0 * (double)(rlf_flow_limb_m * rlf_flow_limb_m);
 }
 
-static void twist_row(const rlf_twist *t, rlf_vec3 p, rlf_vec3 n, double row[6])
-{
-    rlf_vec3 turn = rlf_cross(rlf_sub(p, t->centre), n);
-    row[0] = n.x;
-    row[1] = n.y;
-    row[2] = n.z;
-    row[3] = turn.x / t->length;
-    row[4] = turn.y / t->length;
-    row[5] = turn.z / t->length;
-}
-
 /* What the sensor's noise makes of a speed, and the normal's error of the motion. */
 static double tolerated(const rlf_flow *job, ptrdiff_t i, double facing, double speed)
 {
@@ -74,23 +61,17 @@ typedef struct twist_sum {
     const rlf_region *region;
     double slack; /* widens what agrees while the motion is still far off */
     double speed; /* of the motion so far */
-    double a[6][6], b[6];
+    math_rigid_sums sums;
 } twist_sum;
 
 /* One seen speed `off` beyond the motion along the unit vector n at p; `sigma` is its noise. */
-static void add_row(twist_sum *sum, rlf_twist *t, rlf_vec3 p, rlf_vec3 n, double off, double sigma,
-                    double weight)
+static void add_row(twist_sum *sum, rlf_twist *t, rlf_vec3 p, rlf_vec3 n, double off, double sigma)
 {
-    double row[6], along = rlf_dot(n, rlf_twist_velocity(t, p));
+    const double along = rlf_dot(n, rlf_twist_velocity(t, p));
+    const rlf_vec3 turn = rlf_cross(rlf_sub(p, t->centre), n);
     t->noise += sigma * sigma;
     t->explained += along * along;
-    twist_row(t, p, n, row);
-    for (int r = 0; r < 6; r++) {
-        sum->b[r] += weight * row[r] * off;
-        for (int c = 0; c <= r; c++) {
-            sum->a[r][c] += weight * row[r] * row[c];
-        }
-    }
+    math_rigid_add(&sum->sums, n, rlf_scale(turn, 1.0 / t->length), off, 1.0);
 }
 
 static void add_pixel(twist_sum *sum, rlf_twist *t, ptrdiff_t i)
@@ -107,7 +88,7 @@ static void add_pixel(twist_sum *sum, rlf_twist *t, ptrdiff_t i)
     if (off <= bound && off >= -bound) {
         double sigma = rlf_kernel_sigma(job->noise, job->now->depth[i]) / job->dt;
         t->inliers++;
-        add_row(sum, t, p, n, off, 1.41421356 * sigma * facing, 1.0);
+        add_row(sum, t, p, n, off, 1.41421356 * sigma * facing);
     }
 }
 
@@ -115,9 +96,9 @@ static void step(twist_sum *sum, rlf_twist *t)
 {
     double x[6];
     for (int k = 0; k < 6; k++) {
-        sum->a[k][k] += (double)rlf_flow_ridge * (t->inliers + 1);
+        sum->sums.a[k][k] += (double)rlf_flow_ridge * (t->inliers + 1);
     }
-    math_solve_six(sum->a, sum->b, x);
+    (void)math_rigid_solve(&sum->sums, 0.0, x);
     for (int k = 0; k < 6; k++) {
         t->x[k] += x[k];
     }
