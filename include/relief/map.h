@@ -40,12 +40,8 @@ typedef struct rlf_map_def {
     double voxel_m;    /* edge of a voxel, 0.002..0.05 metres; default 0.006 */
     int32_t memory_mb; /* most memory of blocks, 8..16384 MiB; default 288. When it is full, the
                           blocks farthest from the camera leave first */
-    double truncation_sigmas; /* distances are true up to this many sigma(z) of a surface, and to 4
-                                 voxels at least, 8 at most; default 4 */
     int32_t blocks_per_frame; /* most blocks that one frame is fused into; the others have their
                                  turn in the next ones. 0 = all. Default 768 */
-    int32_t carve_after;      /* frames that must see through a voxel before what was there is gone,
-                                 1..16; default 4 */
     bool keep_color;          /* default true; false: no grey or colour, the same geometry */
     rlf_pool *pool;           /* borrowed; NULL = one thread */
 } rlf_map_def;

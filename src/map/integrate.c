@@ -1,5 +1,4 @@
 /* A view into the volume: the blocks near what it sees, then those that it sees through. */
-#include "map/mark.h"
 #include "map/volume.h"
 
 #include <stddef.h>
@@ -10,6 +9,11 @@ enum {
                          into all blocks asks all of them in each */
     GRAIN = 32        /* blocks */
 };
+
+/* Distances are true up to this many sigma(z) of a surface. */
+#define TRUNCATION_SIGMAS 4.0f
+/* Frames that must see through a voxel before what was there is gone. */
+#define CARVE_AFTER 4.0f
 
 typedef struct fuse_job {
     rlf_map *map;
@@ -38,13 +42,13 @@ static rlf_fuse_view view_make(const rlf_map *map, const rlf_map_view *in, int32
         .color_turn = (int32_t)(map->frames / turns & 3),
         .source_of = map->source_of,
         .noise = rlf_kernel_noise_make(&def->rig.noise),
-        .sigmas = (float)def->truncation_sigmas,
+        .sigmas = TRUNCATION_SIGMAS,
         .truncation_least = (float)MAP_TRUNCATION_LEAST * voxel,
         .truncation_most = (float)MAP_TRUNCATION_MOST * voxel,
         .voxel = voxel,
         .nearest_sigma = (float)rlf_depth_noise_sigma(&def->rig.noise, 1.0),
         /* A mean of c parts old and one part new passes zero after (c + 1/2) ln 2 frames. */
-        .carve_weight = 1.4427f * (float)def->carve_after - 0.5f,
+        .carve_weight = 1.4427f * CARVE_AFTER - 0.5f,
     };
     return view;
 }
@@ -75,11 +79,8 @@ static void choose_seen(fuse_job *job)
 static bool is_seen_through(const fuse_job *job, int32_t block)
 {
     const rlf_map *map = job->map;
-    const double side = map->def.voxel_m * MAP_SIDE;
-    const int16_t *at = map->volume.place[block];
-    const rlf_vec3 middle = {(at[0] + 0.5) * side, (at[1] + 0.5) * side, (at[2] + 0.5) * side};
-    const rlf_vec3 p =
-        rlf_mat3_mul_vec(&job->R_camera_world, rlf_sub(middle, job->T_world_camera.p));
+    const rlf_vec3 way = map_block_way(map, map->volume.place[block], job->T_world_camera.p);
+    const rlf_vec3 p = rlf_mat3_mul_vec(&job->R_camera_world, way);
     const rlf_camera *c = &map->pinhole;
     if (!(p.z > 0.1)) {
         return false;

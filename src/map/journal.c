@@ -3,22 +3,12 @@
 
 #include <string.h>
 
-bool map_journal_create(map_journal *j, int32_t slot_capacity, int32_t block_capacity)
+void map_journal_take(map_journal *j, rlf_arena *arena, int32_t slots, int32_t blocks)
 {
-    j->epoch = 1;
-    j->slot_capacity = slot_capacity;
-    j->memo_capacity = slot_capacity + block_capacity;
-    j->memo = rlf_alloc_array((size_t)j->memo_capacity, sizeof(map_memo));
-    j->slabs.slab_capacity = (slot_capacity + MAP_SLAB - 1) / MAP_SLAB;
-    j->slabs.slab = rlf_alloc_array((size_t)j->slabs.slab_capacity, sizeof(map_block *));
-    return j->memo != NULL && j->slabs.slab != NULL;
-}
-
-void map_journal_destroy(map_journal *j)
-{
-    map_slabs_free(&j->slabs);
-    rlf_free(j->memo);
-    memset(j, 0, sizeof(*j));
+    j->slot_capacity = slots;
+    j->memo_capacity = slots + blocks;
+    j->memo = arena_take(arena, (size_t)j->memo_capacity, sizeof(map_memo));
+    map_slabs_take(&j->slabs, arena, slots);
 }
 
 static void begin_epoch(rlf_map *map)

@@ -1,9 +1,7 @@
 /* Pixels look for the blocks near their surface. Where several of them see one block, only some
  * look, others in the next frames; where blocks are finer than a pixel, it looks at several places.
  */
-#include "map/mark.h"
-
-#include "map/evict.h"
+#include "map/volume.h"
 
 #include <string.h>
 
@@ -19,6 +17,10 @@ enum {
     BATCH = 64   /* places that memory has to answer in */
 };
 
+/* When the memory is full so large a share of the blocks leaves at a time, so that it is not looked
+ * for at every frame: the farthest, by bins of their squared distance. */
+enum { EVICT_SHARE = 64, EVICT_BINS = 256 };
+
 typedef struct marker {
     rlf_map *map;
     rlf_vec3 eye;
@@ -30,6 +32,72 @@ typedef struct marker {
     int32_t at[BATCH * MARGINS][3];
     int32_t count;
 } marker;
+
+static bool may_leave(const rlf_map *map, int32_t block)
+{
+    return (map->volume.flags[block] & MAP_LIVE) && map->volume.marked[block] != map->tick;
+}
+
+static double distance2_of(const rlf_map *map, int32_t block, rlf_vec3 eye)
+{
+    const rlf_vec3 way = map_block_way(map, map->volume.place[block], eye);
+    return rlf_dot(way, way);
+}
+
+static int32_t bin_of(double distance2, double most)
+{
+    int32_t bin = (int32_t)(distance2 / most * EVICT_BINS);
+    return bin < EVICT_BINS ? bin : EVICT_BINS - 1;
+}
+
+/* The nearest bin beyond `least` such that it and those farther hold at least `wanted` blocks. */
+static int32_t nearest_bin(const rlf_map *map, rlf_vec3 eye, double most, int32_t least,
+                           int32_t wanted)
+{
+    int32_t count[EVICT_BINS];
+    memset(count, 0, sizeof(count));
+    for (int32_t i = 0; i < map->volume.high; i++) {
+        if (may_leave(map, i)) {
+            count[bin_of(distance2_of(map, i, eye), most)]++;
+        }
+    }
+    int32_t bin = EVICT_BINS, sum = 0;
+    while (bin > least + 1 && sum < wanted) {
+        sum += count[--bin];
+    }
+    return bin;
+}
+
+/* Makes room for a block at the squared distance `distance2` from the eye, m^2: some of those that
+ * are farther and that this frame did not see are removed; returns how many. When there are none
+ * `reach2` is where the farthest of the others is: nothing beyond has room. */
+static int32_t evict(rlf_map *map, rlf_vec3 eye, double distance2, double *reach2)
+{
+    map_volume *v = &map->volume;
+    double most = 0.0;
+    for (int32_t i = 0; i < v->high; i++) {
+        if (may_leave(map, i)) {
+            most = rlf_max(most, distance2_of(map, i, eye));
+        }
+    }
+    map->is_full = true;
+    const int32_t least = distance2 < most ? bin_of(distance2, most) : EVICT_BINS - 1;
+    if (least == EVICT_BINS - 1) {
+        *reach2 = most * least / EVICT_BINS;
+        return 0;
+    }
+    const int32_t wanted = v->count / EVICT_SHARE + 1;
+    const int32_t bin = nearest_bin(map, eye, most, least, wanted);
+    int32_t evicted = 0;
+    for (int32_t i = 0; i < v->high && evicted < wanted; i++) {
+        if (may_leave(map, i) && bin_of(distance2_of(map, i, eye), most) >= bin) {
+            map_journal_keep(map, i, false);
+            map_volume_remove(v, i);
+            evicted++;
+        }
+    }
+    return evicted;
+}
 
 static int32_t floor_block(double x)
 {
@@ -46,16 +114,15 @@ static int32_t take(marker *m, const int32_t at[3])
     if (block >= 0) {
         return block;
     }
-    const double side = map->def.voxel_m * MAP_SIDE;
-    const rlf_vec3 d = {(at[0] + 0.5) * side - m->eye.x, (at[1] + 0.5) * side - m->eye.y,
-                        (at[2] + 0.5) * side - m->eye.z};
-    const double distance2 = rlf_dot(d, d);
+    const int16_t place[4] = {(int16_t)at[0], (int16_t)at[1], (int16_t)at[2]};
+    const rlf_vec3 way = map_block_way(map, place, m->eye);
+    const double distance2 = rlf_dot(way, way);
     if (v->count == v->capacity && distance2 >= m->reach2) {
         return -1;
     }
     block = map_volume_add(v, at[0], at[1], at[2]);
     if (block < 0) {
-        m->change->blocks_evicted += map_evict(map, m->eye, distance2, &m->reach2);
+        m->change->blocks_evicted += evict(map, m->eye, distance2, &m->reach2);
         block = map_volume_add(v, at[0], at[1], at[2]);
     }
     if (block >= 0) {

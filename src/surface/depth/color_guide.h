@@ -4,7 +4,7 @@
 #define RLF_SURFACE_DEPTH_COLOR_GUIDE_H
 
 #include "kernel/batch.h"
-#include "surface/arena.h"
+#include "base/arena.h"
 #include "surface/frame.h"
 
 /* How the colour picture lies beside depth at edges: see depth/color_guide.c. */

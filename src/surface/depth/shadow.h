@@ -2,7 +2,7 @@
 #ifndef RLF_SURFACE_DEPTH_SHADOW_H
 #define RLF_SURFACE_DEPTH_SHADOW_H
 
-#include "surface/arena.h"
+#include "base/arena.h"
 #include "surface/frame.h"
 
 /* The shadow that the sensor's projector leaves beside near things: see shadow.c. Two sides of a

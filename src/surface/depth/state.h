@@ -2,7 +2,7 @@
 #ifndef RLF_SURFACE_DEPTH_STATE_H
 #define RLF_SURFACE_DEPTH_STATE_H
 
-#include "surface/arena.h"
+#include "base/arena.h"
 #include "surface/frame.h"
 
 /* Side of a block in pixels, and the frames without motion after which one is calm. */

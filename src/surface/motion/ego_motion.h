@@ -2,7 +2,7 @@
 #ifndef RLF_SURFACE_MOTION_EGO_MOTION_H
 #define RLF_SURFACE_MOTION_EGO_MOTION_H
 
-#include "surface/arena.h"
+#include "base/arena.h"
 #include "surface/frame.h"
 
 /* What is seen of an earlier frame, see ego_motion.c. */

@@ -2,7 +2,7 @@
 #ifndef RLF_SURFACE_MOTION_STATE_H
 #define RLF_SURFACE_MOTION_STATE_H
 
-#include "surface/arena.h"
+#include "base/arena.h"
 #include "surface/frame.h"
 #include "surface/thickness/state.h"
 

@@ -2,7 +2,7 @@
 #ifndef RLF_SURFACE_SEGMENT_STATE_H
 #define RLF_SURFACE_SEGMENT_STATE_H
 
-#include "surface/arena.h"
+#include "base/arena.h"
 #include "surface/frame.h"
 
 /* A run of linked pixels of one row, the unit of segmentation. */
