@@ -3,6 +3,7 @@
 
 #include "base/cookie.h"
 #include "camera/checks.h"
+#include "camera/pixels.h"
 
 #include <string.h>
 
@@ -47,27 +48,14 @@ static rlf_result check(const rlf_map_def *def)
     return RLF_OK;
 }
 
-/* Rays of the rig's pixels, and which of them a pinhole's pixel shows. */
-static void fill_rays(rlf_map *map)
+/* Which of the rig's pixels a pinhole's pixel shows. */
+static void fill_sources(rlf_map *map)
 {
-    const rlf_camera *lens = &map->def.rig.depth;
-    for (int32_t y = 0; y < lens->height; y++) {
-        for (int32_t x = 0; x < lens->width; x++) {
-            const size_t i = (size_t)y * (size_t)lens->width + (size_t)x;
-            rlf_vec3 ray;
-            bool has_ray = rlf_camera_unproject(lens, x, y, &ray);
-            map->ray_x[i] = has_ray ? (float)ray.x : 0.0f;
-            map->ray_y[i] = has_ray ? (float)ray.y : 0.0f;
-            if (map->source_of == NULL) {
-                continue;
-            }
-            const rlf_vec3 straight = {(x - lens->cx) / lens->fx, (y - lens->cy) / lens->fy, 1.0};
-            double u, v;
-            bool is_seen = rlf_camera_project(lens, straight, &u, &v) && u > -0.5 && v > -0.5 &&
-                           u < lens->width - 0.5 && v < lens->height - 0.5;
-            map->source_of[i] =
-                is_seen ? (int32_t)(v + 0.5) * lens->width + (int32_t)(u + 0.5) : -1;
-        }
+    const rlf_camera *c = &map->pinhole;
+    for (int32_t i = 0; i < c->width * c->height && map->source_of != NULL; i++) {
+        const double x = i % c->width, y = i / c->width;
+        const rlf_vec3 ray = {(x - c->cx) / c->fx, (y - c->cy) / c->fy, 1.0};
+        map->source_of[i] = camera_pixel_of(&map->def.rig.depth, ray);
     }
 }
 
@@ -128,7 +116,8 @@ rlf_result rlf_map_create(const rlf_map_def *def, rlf_map **out)
         rlf_free(map);
         return RLF_ERROR_MEMORY;
     }
-    fill_rays(map);
+    camera_fill_rays(&def->rig.depth, map->ray_x, map->ray_y);
+    fill_sources(map);
     rlf_map_clear(map);
     *out = map;
     return RLF_OK;

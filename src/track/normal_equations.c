@@ -1,5 +1,5 @@
 /* Point to plane residuals (Chen and Medioni 1991), sixteen points at a time. */
-#include "track/normal_equations.h"
+#include "track/tracker.h"
 
 #include "kernel/kernel.h"
 

@@ -1,5 +1,5 @@
 /* Of each 4 x 4 depth pixels the 2 x 2 in the middle, to a point. */
-#include "track/points.h"
+#include "track/tracker.h"
 
 /* Four pixels lie on one surface when their depths are within so many sigma, or within the slope of
  * a surface at a low angle, 80 degrees: so many times a pixel's width there. */
