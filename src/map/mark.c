@@ -99,12 +99,6 @@ static int32_t evict(rlf_map *map, rlf_vec3 eye, double distance2, double *reach
     return evicted;
 }
 
-static int32_t floor_block(double x)
-{
-    int32_t i = (int32_t)x;
-    return x < (double)i ? i - 1 : i;
-}
-
 /* The block at a place, made when there is none; -1: there is no room for it. */
 static int32_t take(marker *m, const int32_t at[3])
 {
@@ -163,7 +157,7 @@ static void look(marker *m, rlf_vec3 ray, double depth)
         bool is_in = true;
         for (int32_t r = 0; r < 3; r++) {
             is_in = is_in && place[r] > -32000.0 && place[r] < 32000.0;
-            at[r] = is_in ? floor_block(place[r]) : 0;
+            at[r] = is_in ? map_floor(place[r]) : 0;
         }
         const int32_t before = m->count - MARGINS; /* the same of the place before */
         if (is_in && (before < 0 || memcmp(at, m->at[before], sizeof(at)) != 0)) {

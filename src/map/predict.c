@@ -15,18 +15,12 @@ typedef struct ray {
     float z0, d0; /* the last place in front of a surface; d0 < 0: there is none */
 } ray;
 
-static int32_t floored(float x)
-{
-    int32_t i = (int32_t)x;
-    return x < (float)i ? i - 1 : i;
-}
-
 /* The block with voxel (i, j, k), or -1. */
 static int32_t find_block(ray *r, const int32_t voxel[3])
 {
     int32_t at[3];
     for (int32_t k = 0; k < 3; k++) {
-        at[k] = (voxel[k] - (voxel[k] & 7)) / MAP_SIDE;
+        at[k] = map_block_of(voxel[k]);
     }
     if (at[0] != r->block_at[0] || at[1] != r->block_at[1] || at[2] != r->block_at[2]) {
         memcpy(r->block_at, at, sizeof(at));
@@ -78,7 +72,7 @@ static bool corners_at(ray *r, float z, corners *out)
     int32_t voxel[3];
     for (int32_t k = 0; k < 3; k++) {
         const float p = r->at[k] + z * r->way[k];
-        voxel[k] = floored(p);
+        voxel[k] = map_floor(p);
         out->in[k] = p - (float)voxel[k];
     }
     out->block = find_block(r, voxel);
@@ -168,7 +162,7 @@ static bool cast(ray *r, float z, float far_z, hit *out)
     while (z < far_z) {
         int32_t voxel_at[3];
         for (int32_t k = 0; k < 3; k++) {
-            voxel_at[k] = floored(r->at[k] + z * r->way[k] + 0.5f);
+            voxel_at[k] = map_floor(r->at[k] + z * r->way[k] + 0.5f);
         }
         const int32_t block = find_block(r, voxel_at);
         if (block < 0) {
@@ -263,8 +257,8 @@ static void look_ahead(const map_caster *c, int32_t x, int32_t y, ray *r)
     int32_t voxel[3], at[3];
     bool is_in = true;
     for (int32_t k = 0; k < 3; k++) {
-        voxel[k] = floored(r->at[k] + start * r->way[k]);
-        at[k] = (voxel[k] - (voxel[k] & 7)) / MAP_SIDE;
+        voxel[k] = map_floor(r->at[k] + start * r->way[k]);
+        at[k] = map_block_of(voxel[k]);
         is_in &= at[k] == r->v->place[block][k];
     }
     if (is_in) {

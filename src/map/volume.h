@@ -108,6 +108,17 @@ struct rlf_map {
     map_view_planes out;
 };
 
+static inline int32_t map_floor(double x)
+{
+    const int32_t i = (int32_t)x;
+    return x < (double)i ? i - 1 : i;
+}
+/* Along an axis, the block of a voxel. */
+static inline int32_t map_block_of(int32_t voxel)
+{
+    return (voxel - (voxel & 7)) / MAP_SIDE;
+}
+
 /* ---- blocks.c */
 void map_slabs_take(map_slabs *slabs, rlf_arena *arena, int32_t blocks);
 bool map_slabs_reserve(map_slabs *slabs, int32_t count);
@@ -151,7 +162,7 @@ void map_journal_keep(rlf_map *map, int32_t block, bool is_new);
 /* Planes and least depths of a view. */
 void map_view_prepare(rlf_map *map, const rlf_map_view *view);
 
-/* ---- cell.c */
+/* ---- sample.c */
 /* The cell whose lowest corner is voxel (i, j, k) of a block; corners by bits x = 1, y = 2, z = 4.
  */
 typedef struct map_cell {
