@@ -1,25 +1,7 @@
 /* From the velocities of cells to those of pixels: the mean of the cells around a pixel, weighted
  * by nearness, of those with the same limb. */
 #include "surface/motion/motion.h"
-
-/* Column of the cell whose middle is at pixel x or before it; -1 = before the first. */
-static int32_t column_before(const rlf_cell_grid *g, int32_t x, float inverse)
-{
-    float column = ((float)(x - g->region->x0) + 0.5f) * inverse - 0.5f;
-    return (int32_t)(column + 1.0f) - 1;
-}
-
-/* First pixel after x, before x1, that lies beyond the middle of the cell after `column`. */
-static int32_t next_middle(const rlf_cell_grid *g, int32_t x, int32_t x1, int32_t column,
-                           float inverse)
-{
-    int32_t guess = g->region->x0 + (column + 1) * g->size + g->size / 2 - 1;
-    guess = guess > x ? guess : x + 1;
-    while (guess < x1 && column_before(g, guess, inverse) == column) {
-        guess++;
-    }
-    return guess < x1 ? guess : x1;
-}
+#include "surface/window.h"
 
 static rlf_kernel_flow_cell cell_at(const rlf_cell_grid *g, int32_t row, int32_t column)
 {
@@ -31,12 +13,6 @@ static rlf_kernel_flow_cell cell_at(const rlf_cell_grid *g, int32_t row, int32_t
                                   cell->depth,
                                   cell->state >= RLF_CELL_WHOLE,
                                   cell->state != RLF_CELL_MOVES};
-}
-
-static bool is_still(const rlf_cell_grid *g, int32_t y, int32_t x)
-{
-    int32_t row = (y - g->region->y0) / g->size, column = (x - g->region->x0) / g->size;
-    return g->cells[row * g->columns + column].state == RLF_CELL_STILL;
 }
 
 /* Pixels x0 <= x < x1, all between the middles of the flow's cells. */
@@ -51,30 +27,25 @@ static void write_part(const rlf_cell_grid *g, rlf_kernel_flow *flow, int32_t y,
     rlf_kernel_flow_row(flow, now->depth + i, grid->ray_x + i, grid->ray_y + i, x1 - x0, velocity);
 }
 
-/* From middle to middle of cells, what is not of a cell that rests. */
+/* Half a cell at a time, what is not of a cell that rests. */
 static void write_run(const rlf_cell_grid *g, rlf_kernel_flow *flow, int32_t y, const rlf_run *run)
 {
-    int32_t row = (int32_t)(((float)(y - g->region->y0) + 0.5f) * flow->inverse + 0.5f) - 1;
-    flow->down = ((float)(y - g->region->y0) + 0.5f) * flow->inverse - 0.5f - (float)row;
-    for (int32_t x = run->x0; x < run->x1;) {
-        int32_t column = column_before(g, x, flow->inverse);
-        int32_t next = next_middle(g, x, run->x1, column, flow->inverse);
-        int32_t edge = g->region->x0 + (column + 1) * g->size;
-        int32_t first = x, last = next;
-        if (is_still(g, y, x)) {
-            first = edge > x && edge < next ? edge : next;
+    const int32_t size = g->size, half = size / 2, down = y - g->region->y0;
+    const int32_t row = down / size, above = row - (down % size < half ? 1 : 0);
+    flow->down = ((float)down + 0.5f) * flow->inverse - 0.5f - (float)above;
+    for (int32_t x = run->x0, next; x < run->x1; x = next) {
+        const int32_t right = x - g->region->x0, column = right / size;
+        const bool is_first = right % size < half;
+        next = rlf_least(run->x1, g->region->x0 + column * size + (is_first ? half : size));
+        if (g->cells[row * g->columns + column].state == RLF_CELL_STILL) {
+            continue;
         }
-        if (edge > x && edge < next && is_still(g, y, edge)) {
-            last = edge;
+        const int32_t before = column - (is_first ? 1 : 0);
+        flow->column = (float)before;
+        for (int k = 0; k < 4; k++) {
+            flow->cell[k] = cell_at(g, above + k / 2, before + k % 2);
         }
-        if (first < last) {
-            flow->column = (float)column;
-            for (int k = 0; k < 4; k++) {
-                flow->cell[k] = cell_at(g, row + k / 2, column + k % 2);
-            }
-            write_part(g, flow, y, first, last);
-        }
-        x = next;
+        write_part(g, flow, y, x, next);
     }
 }
 
