@@ -43,9 +43,18 @@ static inline rlf_vec3 rlf_twist_velocity(const rlf_twist *t, rlf_vec3 p)
     return rlf_twist_at(t, rlf_twist_spin(t), p);
 }
 
+typedef struct rlf_velocity {
+    float v[3]; /* m/s */
+} rlf_velocity;
+
+static inline rlf_velocity rlf_velocity_make(double x, double y, double z)
+{
+    return (rlf_velocity){{(float)x, (float)y, (float)z}};
+}
+
 /* A square of the image in one region: see motion/cells.c. */
 typedef struct rlf_cell {
-    float velocity[3];
+    rlf_velocity velocity;
     float depth; /* of the limb that it holds, metres; 0 = none of the region */
     int32_t state;
 } rlf_cell;

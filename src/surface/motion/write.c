@@ -9,7 +9,7 @@ static rlf_kernel_flow_cell cell_at(const rlf_cell_grid *g, int32_t row, int32_t
         return (rlf_kernel_flow_cell){.is_known = false};
     }
     const rlf_cell *cell = &g->cells[row * g->columns + column];
-    return (rlf_kernel_flow_cell){{cell->velocity[0], cell->velocity[1], cell->velocity[2]},
+    return (rlf_kernel_flow_cell){{cell->velocity.v[0], cell->velocity.v[1], cell->velocity.v[2]},
                                   cell->depth,
                                   cell->state >= RLF_CELL_WHOLE,
                                   cell->state != RLF_CELL_MOVES};
