@@ -113,6 +113,7 @@ static void improve(const ego_job *job, double gate, rlf_pose *pose)
 typedef struct ego_part {
     int32_t points, fitting, resting; /* fitting: the motion; resting: at rest */
     double said, gain; /* said: the motion there; gain: how much better than rest it explains */
+    double off_rest;
 } ego_part;
 
 enum { PARTS_X = 4, PARTS_Y = 3, PARTS = PARTS_X * PARTS_Y, FEWEST = PARTS / 2 * FEWEST_OF_PART };
@@ -128,6 +129,7 @@ static int32_t part_index(const image_grid *grid, int32_t pixel)
     return y * PARTS_Y / grid->height * PARTS_X + x * PARTS_X / grid->width;
 }
 
+/* What each part says of a motion, and of rest. */
 static void ask(const ego_job *job, const rlf_pose *pose, ego_part parts[PARTS])
 {
     const rlf_pose rest = rlf_pose_identity();
@@ -142,11 +144,13 @@ static void ask(const ego_job *job, const rlf_pose *pose, ego_part parts[PARTS])
         ego_part *part = &parts[part_index(job->grid, from->pixel)];
         const double sigma = sigma_at(job, k), said = rlf_dot(n, rlf_sub(p, from->point));
         const double bound = tukey * sigma + off_share * (said < 0.0 ? -said : said);
-        const double fit = square_of(off * tukey, bound);
+        const double fit = square_of(off * tukey, bound), at_rest = square_of(off_rest, sigma);
         part->points++;
+        part->off_rest += at_rest;
+        part->resting += at_rest < rest_sigmas * rest_sigmas;
         part->fitting += off < bound && off > -bound;
         part->said += square_of(said, sigma);
-        part->gain += square_of(off_rest, sigma) - fit;
+        part->gain += at_rest - fit;
     }
 }
 
@@ -206,21 +210,13 @@ static ego_rest find_rest(const ego_job *job)
     ego_rest found = {0, 0, false};
     int32_t points = 0;
     double sum = 0.0;
-    for (int32_t k = 0; k < job->view->count; k++) {
-        rlf_vec3 p, n;
-        double off, sigma = sigma_at(job, k);
-        if (distance_to(job, k, &rest, &p, &n, &off)) {
-            ego_part *part = &parts[part_index(job->grid, job->view->points[k].pixel)];
-            points++;
-            sum += square_of(off, sigma);
-            part->points++;
-            part->resting += square_of(off, sigma) < rest_sigmas * rest_sigmas;
-        }
-    }
+    ask(job, &rest, parts);
     for (int32_t k = 0; k < PARTS; k++) {
         const bool is_seen = parts[k].points >= FEWEST_OF_PART;
         found.seen += is_seen;
         found.resting += is_seen && 2 * parts[k].resting > parts[k].points;
+        points += parts[k].points;
+        sum += parts[k].off_rest;
     }
     found.is_all = sum < rest_square * points;
     return found;

@@ -48,107 +48,68 @@ static bool speed_beyond(const rlf_flow *job, ptrdiff_t i, rlf_vec3 p, rlf_vec3 
     return rlf_dot(step, step) < 4.0 * (double)(rlf_flow_limb_m * rlf_flow_limb_m);
 }
 
-/* What the sensor's noise makes of a speed, and the normal's error of the motion. */
-static double tolerated(const rlf_flow *job, ptrdiff_t i, double facing, double speed)
-{
-    double sigma = rlf_kernel_sigma(job->noise, job->now->depth[i]) / job->dt;
-    return 3.0 * 1.41421356 * sigma * facing + normal_error * speed;
-}
-
-/* Normal equations of a step of Gauss and Newton. */
-typedef struct twist_sum {
+/* A region's pixels against a motion of it. */
+typedef struct twist_look {
     const rlf_flow *job;
     const rlf_region *region;
     double slack; /* widens what agrees while the motion is still far off */
-    double speed; /* of the motion so far */
     math_rigid_sums sums;
-} twist_sum;
+} twist_look;
 
-/* One seen speed `off` beyond the motion along the unit vector n at p; `sigma` is its noise. */
-static void add_row(twist_sum *sum, rlf_twist *t, rlf_vec3 p, rlf_vec3 n, double off, double sigma)
+static void add_pixel(twist_look *look, rlf_twist *t, double speed, ptrdiff_t i)
 {
-    const double along = rlf_dot(n, rlf_twist_velocity(t, p));
-    const rlf_vec3 turn = rlf_cross(rlf_sub(p, t->centre), n);
-    t->noise += sigma * sigma;
-    t->explained += along * along;
-    math_rigid_add(&sum->sums, n, rlf_scale(turn, 1.0 / t->length), off, 1.0);
-}
-
-static void add_pixel(twist_sum *sum, rlf_twist *t, ptrdiff_t i)
-{
-    const rlf_flow *job = sum->job;
+    const rlf_flow *job = look->job;
     t->samples++;
-    rlf_vec3 p = rlf_flow_point(&job->stage->grid, job->now->depth, i);
-    rlf_vec3 n = rlf_flow_normal(job->now, i);
-    double facing = -rlf_dot(n, p) / p.z, off;
-    if (!(facing > 0.0) || !speed_beyond(job, i, p, n, rlf_twist_velocity(t, p), &off)) {
+    const rlf_vec3 p = rlf_flow_point(&job->stage->grid, job->now->depth, i);
+    const rlf_vec3 n = rlf_flow_normal(job->now, i), v = rlf_twist_velocity(t, p);
+    const double facing = -rlf_dot(n, p) / p.z, along = rlf_dot(n, v);
+    double off;
+    if (!(facing > 0.0) || !speed_beyond(job, i, p, n, v, &off)) {
         return;
     }
-    double bound = sum->slack + tolerated(job, i, facing, sum->speed);
+    /* What the sensor's noise makes of a speed, and the normal's error of the motion. */
+    const double noise =
+        1.41421356 * rlf_kernel_sigma(job->noise, job->now->depth[i]) / job->dt * facing;
+    const double bound = look->slack + 3.0 * noise + normal_error * speed;
     if (off <= bound && off >= -bound) {
-        double sigma = rlf_kernel_sigma(job->noise, job->now->depth[i]) / job->dt;
+        const rlf_vec3 turn = rlf_cross(rlf_sub(p, t->centre), n);
         t->inliers++;
-        add_row(sum, t, p, n, off, 1.41421356 * sigma * facing);
+        t->noise += noise * noise;
+        t->explained += along * along;
+        math_rigid_add(&look->sums, n, rlf_scale(turn, 1.0 / t->length), off, 1.0);
     }
 }
 
-static void step(twist_sum *sum, rlf_twist *t)
+/* Sums over the pixels that agree with the motion. */
+static void look_at(twist_look *look, rlf_twist *t)
 {
-    double x[6];
-    for (int k = 0; k < 6; k++) {
-        sum->sums.a[k][k] += (double)rlf_flow_ridge * (t->inliers + 1);
-    }
-    (void)math_rigid_solve(&sum->sums, 0.0, x);
-    for (int k = 0; k < 6; k++) {
-        t->x[k] += x[k];
-    }
-}
-
-/* One step of Gauss and Newton over the pixels that agree with the motion so far. */
-static void fit_pass(const twist_sum *start, double slack, rlf_twist *t)
-{
-    twist_sum sum = *start;
-    const rlf_flow *job = sum.job;
-    const rlf_region *region = sum.region;
-    sum.slack = slack;
-    sum.speed = sqrt(t->x[0] * t->x[0] + t->x[1] * t->x[1] + t->x[2] * t->x[2]);
+    const rlf_flow *job = look->job;
+    const rlf_region *region = look->region;
+    const double speed = rlf_length(rlf_vec3_make(t->x[0], t->x[1], t->x[2]));
+    look->sums = (math_rigid_sums){.weight = 0.0};
     t->samples = t->inliers = 0;
     t->noise = t->explained = 0.0;
     for (int32_t v = region->y0; v < region->y1; v += t->stride) {
         for (int32_t u = region->x0; u < region->x1; u += t->stride) {
             ptrdiff_t i = (ptrdiff_t)v * job->stage->grid.width + u;
             if (job->now->label[i] == region->label && job->now->reason[i] == RLF_REASON_OK) {
-                add_pixel(&sum, t, i);
+                add_pixel(look, t, speed, i);
             }
         }
     }
-    step(&sum, t);
 }
 
-/* What agrees with rest. */
-static void count_rest(const twist_sum *start, rlf_twist *t)
+/* One step of Gauss and Newton. */
+static void step(twist_look *look, rlf_twist *t)
 {
-    const rlf_flow *job = start->job;
-    const image_grid *grid = &job->stage->grid;
-    const rlf_slot *now = job->now;
-    const rlf_region *region = start->region;
-    const rlf_kernel_rest_in in = {.label = now->label,
-                                   .reason = now->reason,
-                                   .depth = now->depth,
-                                   .normal = {now->normal[0], now->normal[1], now->normal[2]},
-                                   .ray_x = grid->ray_x,
-                                   .ray_y = grid->ray_y,
-                                   .before = job->view.seen,
-                                   .width = grid->width,
-                                   .x0 = region->x0,
-                                   .y0 = region->y0,
-                                   .x1 = region->x1,
-                                   .y1 = region->y1,
-                                   .stride = t->stride,
-                                   .own = region->label,
-                                   .noise = job->noise,
-                                   .reach = 2.0f * rlf_flow_limb_m};
-    rlf_kernel_rest_count(&in, &t->samples, &t->inliers);
+    double x[6];
+    for (int k = 0; k < 6; k++) {
+        look->sums.a[k][k] += (double)rlf_flow_ridge * (t->inliers + 1);
+    }
+    (void)math_rigid_solve(&look->sums, 0.0, x);
+    for (int k = 0; k < 6; k++) {
+        t->x[k] += x[k];
+    }
 }
 
 static rlf_twist start_from(const rlf_region *region, rlf_vec3 velocity)
@@ -163,12 +124,14 @@ static rlf_twist start_from(const rlf_region *region, rlf_vec3 velocity)
     return t;
 }
 
-static rlf_twist fit_from(const twist_sum *start, rlf_vec3 velocity)
+static rlf_twist fit_from(const rlf_flow *job, const rlf_region *region, rlf_vec3 velocity)
 {
-    const double slack[PASSES] = {1.0, 0.3, 0.1, 0.0};
-    rlf_twist t = start_from(start->region, velocity);
+    static const double slack[PASSES] = {1.0, 0.3, 0.1, 0.0};
+    rlf_twist t = start_from(region, velocity);
     for (int pass = 0; pass < PASSES; pass++) {
-        fit_pass(start, slack[pass], &t);
+        twist_look look = {.job = job, .region = region, .slack = slack[pass]};
+        look_at(&look, &t);
+        step(&look, &t);
     }
     return t;
 }
@@ -224,16 +187,16 @@ static rlf_vec3 centroid_velocity(const rlf_flow *job, const rlf_region *region)
  * agree with is right. */
 static bool is_moving(const rlf_flow *job, const rlf_region *region, rlf_vec3 seen, rlf_twist *out)
 {
-    const twist_sum sum = {.job = job, .region = region};
+    twist_look look = {.job = job, .region = region};
     const rlf_vec3 none = {0, 0, 0};
     rlf_twist rest = start_from(region, none);
-    count_rest(&sum, &rest);
+    look_at(&look, &rest);
     if (10 * rest.inliers >= 9 * rest.samples) {
         return false; /* whatever the motion */
     }
-    *out = fit_from(&sum, none);
+    *out = fit_from(job, region, none);
     if (rlf_length(seen) > 0.0 && 5 * out->inliers < 4 * rest.samples) {
-        rlf_twist other = fit_from(&sum, seen);
+        rlf_twist other = fit_from(job, region, seen);
         *out = other.inliers > out->inliers ? other : *out;
     }
     /* Half of a pixel's noise: small errors that pixels share, from limbs that move by themselves,
