@@ -94,16 +94,6 @@ typedef struct hit {
     uint8_t grey;
 } hit;
 
-/* In its block, nearest to the ray's point. */
-static int32_t nearest_voxel(const corners *c)
-{
-    int32_t at[3];
-    for (int32_t k = 0; k < 3; k++) {
-        at[k] = c->voxel[k] + (c->in[k] > 0.5f ? 1 : 0);
-    }
-    return (at[2] * MAP_SIDE + at[1]) * MAP_SIDE + at[0];
-}
-
 /* Trilinear, of the corners that have one. */
 static uint8_t mean_grey(const map_block *b, const corners *c)
 {
@@ -129,7 +119,7 @@ static uint8_t mean_grey(const map_block *b, const corners *c)
 static bool refine(ray *r, float start, hit *out)
 {
     float z = start, g[3] = {0, 0, 0}, d = 1.0f;
-    corners c;
+    corners c = {.block = -1};
     for (int32_t i = 0; i < 4 && (d > 0.25f || d < -0.25f); i++) {
         if (!corners_at(r, z, &c)) {
             return false;
@@ -368,21 +358,18 @@ const uint8_t *rlf_map_predict_color(rlf_map *map)
         return NULL;
     }
     const rlf_prediction *p = &map->out.last;
-    map_caster c = {.map = map, .camera = p->camera, .eye = p->T_world_camera.p, .out = &map->out};
-    c.R_world_camera = rlf_quat_to_mat3(rlf_quat_normalize(p->T_world_camera.q));
-    prepare_rays(&c);
-    ray r;
-    ray_begin(&c, &r);
-    for (int32_t y = 0; y < p->camera.height; y++) {
-        for (int32_t x = 0; x < p->camera.width; x++) {
-            const int32_t i = y * p->camera.width + x;
-            uint8_t *rgba = &map->out.rgba[4 * (ptrdiff_t)i];
-            corners at;
-            memset(rgba, 0, 4);
-            ray_make(&c, x, y, &r);
-            if (p->depth[i] > 0.0f && corners_at(&r, p->depth[i], &at)) {
-                map_voxel_color(map_block_at(r.v, at.block), nearest_voxel(&at), rgba);
-            }
+    const rlf_mat3 R = rlf_quat_to_mat3(rlf_quat_normalize(p->T_world_camera.q));
+    for (int32_t i = 0; i < p->camera.width * p->camera.height; i++) {
+        const double z = (double)p->depth[i], x = i % p->camera.width, y = i / p->camera.width;
+        const rlf_vec3 way = {(x - p->camera.cx) / p->camera.fx, (y - p->camera.cy) / p->camera.fy,
+                              1.0};
+        const rlf_vec3 at = rlf_add(rlf_mat3_mul_vec(&R, rlf_scale(way, z)), p->T_world_camera.p);
+        int32_t voxel;
+        const int32_t block = map_voxel_near(map, at, &voxel);
+        uint8_t *rgba = &map->out.rgba[4 * (ptrdiff_t)i];
+        memset(rgba, 0, 4);
+        if (z > 0.0 && block >= 0) {
+            map_voxel_color(map_block_at(&map->volume, block), voxel, rgba);
         }
     }
     return map->out.rgba;

@@ -36,6 +36,33 @@ bool map_cell_read(const map_volume *v, int32_t block, int32_t i, int32_t j, int
     return known != 0;
 }
 
+/* The block of the cell about a point, or -1: the voxel at its lowest corner, counted from the
+ * world's, and the place in it. */
+static int32_t cell_about(const rlf_map *map, rlf_vec3 p, int32_t voxel[3], double in[3])
+{
+    const double scale = 1.0 / map->def.voxel_m, most = 32000.0 * MAP_SIDE;
+    const double at[3] = {p.x * scale, p.y * scale, p.z * scale};
+    for (int32_t k = 0; k < 3; k++) {
+        if (!(at[k] > -most && at[k] < most)) {
+            return -1;
+        }
+        voxel[k] = map_floor(at[k]);
+        in[k] = at[k] - voxel[k];
+    }
+    return map_volume_find(&map->volume, map_block_of(voxel[0]), map_block_of(voxel[1]),
+                           map_block_of(voxel[2]));
+}
+
+int32_t map_voxel_near(const rlf_map *map, rlf_vec3 p, int32_t *out_voxel)
+{
+    const double half = 0.5 * map->def.voxel_m;
+    int32_t voxel[3] = {0};
+    double in[3];
+    const int32_t block = cell_about(map, rlf_add(p, rlf_vec3_make(half, half, half)), voxel, in);
+    *out_voxel = ((voxel[2] & 7) * MAP_SIDE + (voxel[1] & 7)) * MAP_SIDE + (voxel[0] & 7);
+    return block;
+}
+
 static uint8_t clamped(int32_t x)
 {
     return (uint8_t)(x < 0 ? 0 : (x > 255 ? 255 : x));
@@ -78,18 +105,9 @@ rlf_map_point rlf_map_sample(const rlf_map *map, rlf_vec3 p_world)
     if (!RLF_ASSERT(map != NULL) || !rlf_vec3_is_finite(p_world)) {
         return out;
     }
-    const double scale = 1.0 / map->def.voxel_m, most = 32000.0 * MAP_SIDE;
-    double at[3] = {p_world.x * scale, p_world.y * scale, p_world.z * scale};
-    int32_t voxel[3], block_at[3];
-    for (int32_t k = 0; k < 3; k++) {
-        if (!(at[k] > -most && at[k] < most)) {
-            return out;
-        }
-        voxel[k] = map_floor(at[k]);
-        at[k] -= voxel[k];
-        block_at[k] = map_block_of(voxel[k]);
-    }
-    const int32_t block = map_volume_find(&map->volume, block_at[0], block_at[1], block_at[2]);
+    int32_t voxel[3];
+    double at[3];
+    const int32_t block = cell_about(map, p_world, voxel, at);
     if (block < 0) {
         return out;
     }

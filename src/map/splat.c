@@ -158,34 +158,13 @@ static void draw_block(map_caster *caster, int32_t block, const float corner[3])
     }
 }
 
-/* The sides of what the camera sees: n . p > -margin for a ball about p that reaches in. */
-typedef struct frustum {
-    float x[4], y[4], z[4], margin[4];
-} frustum;
-
-static frustum frustum_of(const rlf_camera *c, double radius)
+/* Whether a ball about p may be seen; margin: its radius in pixels at a metre, in the corners. */
+static bool is_in_view(const rlf_camera *c, const float p[3], float radius, float margin)
 {
-    /* Tangents of the ways along the picture's edges. */
-    const double left = (-1.0 - c->cx) / c->fx, right = (c->width - c->cx) / c->fx;
-    const double top = (-1.0 - c->cy) / c->fy, bottom = (c->height - c->cy) / c->fy;
-    const rlf_vec3 n[4] = {{1, 0, -left}, {-1, 0, right}, {0, 1, -top}, {0, -1, bottom}};
-    frustum out;
-    for (int32_t k = 0; k < 4; k++) {
-        out.x[k] = (float)n[k].x;
-        out.y[k] = (float)n[k].y;
-        out.z[k] = (float)n[k].z;
-        out.margin[k] = (float)(radius * rlf_length(n[k]));
-    }
-    return out;
-}
-
-static bool is_in_view(const frustum *f, const float p[3], float radius)
-{
-    bool is_in = p[2] > RLF_FUSE_NEAREST_M - radius;
-    for (int32_t k = 0; k < 4; k++) {
-        is_in &= f->x[k] * p[0] + f->y[k] * p[1] + f->z[k] * p[2] > -f->margin[k];
-    }
-    return is_in;
+    const float z = p[2], u = (float)c->fx * p[0] + (float)(c->cx + 1.0) * z;
+    const float v = (float)c->fy * p[1] + (float)(c->cy + 1.0) * z;
+    return (z > RLF_FUSE_NEAREST_M - radius) & (u > -margin) & (v > -margin) &
+           (u < (float)(c->width + 1) * z + margin) & (v < (float)(c->height + 1) * z + margin);
 }
 
 static void begin(map_caster *caster)
@@ -222,7 +201,11 @@ void map_splat(map_caster *caster)
     const map_volume *v = &caster->map->volume;
     const rlf_mat3 *R = &caster->R_camera_world;
     const double side = caster->map->def.voxel_m * MAP_SIDE, radius = 0.5 * DIAGONAL * side;
-    const frustum f = frustum_of(&caster->camera, radius);
+    const rlf_camera *camera = &caster->camera;
+    const double across = rlf_max(camera->cx, camera->width - camera->cx) / camera->fx;
+    const double down = rlf_max(camera->cy, camera->height - camera->cy) / camera->fy;
+    const float margin = (float)(radius * rlf_max(camera->fx, camera->fy) *
+                                 rlf_length(rlf_vec3_make(across, down, 1.0)));
     /* From the eye to the world's origin, and along a block's edges. */
     const rlf_vec3 origin = rlf_mat3_mul_vec(R, rlf_scale(caster->eye, -1.0));
     const float first[3] = {(float)origin.x, (float)origin.y, (float)origin.z};
@@ -244,7 +227,7 @@ void map_splat(map_caster *caster)
             corner[r] = first[r] + (edge[r][0] * a + edge[r][1] * b + edge[r][2] * c);
             p[r] = corner[r] + middle[r];
         }
-        if (is_in_view(&f, p, (float)radius)) {
+        if (is_in_view(camera, p, (float)radius, margin)) {
             draw_block(caster, i, corner);
         }
     }

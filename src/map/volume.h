@@ -189,6 +189,8 @@ static inline float map_cell_value(const float d[8], const float in[3], float gr
     gradient[2] = b1 - b0;
     return b0 + z * (b1 - b0);
 }
+/* The block of the voxel nearest to a point, or -1; the voxel's index in it. */
+int32_t map_voxel_near(const rlf_map *map, rlf_vec3 p, int32_t *out_voxel);
 /* Grey and colour of a voxel; A = 0 when it has none. */
 void map_voxel_color(const map_block *block, int32_t voxel, uint8_t rgba[4]);
 

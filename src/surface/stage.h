@@ -10,7 +10,6 @@
 #include "surface/depth/color_guide.h"
 #include "surface/depth/shadow.h"
 #include "surface/depth/state.h"
-#include "surface/motion/ego_motion.h"
 #include "surface/motion/state.h"
 #include "surface/normals/state.h"
 #include "surface/segment/state.h"

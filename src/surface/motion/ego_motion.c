@@ -6,8 +6,6 @@
  * moves when it does so in most parts, and in nearly all at which that motion would be seen.
  * Somebody who walks by, however large, leaves the room behind him at rest; a bare wall cannot tell
  * a motion along itself, so who turns before it decides nothing. */
-#include "surface/motion/ego_motion.h"
-
 #include "surface/stage.h"
 
 #include "kernel/kernel.h"
@@ -20,7 +18,8 @@ enum {
     PERIOD = 8,        /* frames between two views that are kept: the older is 8 to 16 frames old */
     MOVING_PERIOD = 4, /* while the camera moves; motion is taken to go on unseen for as long */
     SURE_FRAMES = 2,   /* in a row */
-    FEWEST_OF_PART = 8 /* points that tell anything */
+    FEWEST_OF_PART = 8, /* points that tell anything */
+    COUNTED = 7         /* one pixel of so many tells how many are seen */
 };
 
 static const double gates_m[PASSES] = {0.3, 0.15, 0.05, 0.0, 0.0};
@@ -290,9 +289,16 @@ void rlf_ego_motion_watch(rlf_reconstruct *stage, const float *depth)
     }
 }
 
-static void keep_each(rlf_ego_view *view, const image_grid *grid, const rlf_slot *slot,
-                      int32_t step)
+/* As many points as there is room for: where much has no depth, what has is asked more closely. */
+static void keep(rlf_ego_view *view, const image_grid *grid, const rlf_slot *slot)
 {
+    int32_t seen = 0, step = 1;
+    for (int32_t i = 0; i < grid->count; i += COUNTED) {
+        seen += slot->reason[i] == RLF_REASON_OK;
+    }
+    while ((double)COUNTED * seen > (double)RLF_EGO_POINTS * step * step) {
+        step++;
+    }
     view->count = 0;
     for (int32_t y = step / 2; y < grid->height; y += step) {
         for (int32_t x = step / 2; x < grid->width && view->count < RLF_EGO_POINTS; x += step) {
@@ -305,20 +311,6 @@ static void keep_each(rlf_ego_view *view, const image_grid *grid, const rlf_slot
                 view->points[view->count++] = (rlf_ego_point){p, n, i};
             }
         }
-    }
-}
-
-/* As many points as there is room for: where much has no depth, what has is asked more closely. */
-static void keep(rlf_ego_view *view, const image_grid *grid, const rlf_slot *slot)
-{
-    int32_t step = 1;
-    while ((int64_t)(grid->width / step + 1) * (grid->height / step + 1) > RLF_EGO_POINTS) {
-        step++;
-    }
-    keep_each(view, grid, slot, step);
-    const double finer = step * sqrt(1.1 * view->count / RLF_EGO_POINTS);
-    if (view->count >= FEWEST && (int32_t)finer + 1 < step) {
-        keep_each(view, grid, slot, (int32_t)finer + 1);
     }
 }
 

@@ -1,6 +1,5 @@
 /* Taking a keyframe: points all over the thing, and points of its outline. */
 #include "surface/motion/keyframe.h"
-#include "surface/motion/rim.h"
 
 #include <math.h>
 #include <string.h>

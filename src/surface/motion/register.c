@@ -1,7 +1,6 @@
 /* The rigid motion of a keyframe into a frame: point-to-plane inside (Chen and Medioni 1991), along
  * the normals of the outline at its edge (Harris 1990, "RAPID"), by Gauss and Newton. */
 #include "surface/motion/keyframe.h"
-#include "surface/motion/rim.h"
 
 #include <math.h>
 #include <string.h>

@@ -235,43 +235,26 @@ static bool region_motion(const rlf_flow *job, rlf_region *region, rlf_twist *ou
     return key != NULL && key->is_whole && keyframe_motion(key, region, out);
 }
 
-/* Row y of the frame before, as far as something was in front: or was taken for background then,
- * and has left since. */
-static const uint8_t *front_before(const rlf_reconstruct *stage, int32_t y, rlf_span *span)
-{
-    bool is_all_front = stage->def.background_method == RLF_BACKGROUND_OFF;
-    int32_t width = stage->grid.width;
-    ptrdiff_t row = (ptrdiff_t)y * width;
-    const uint8_t *foreground = stage->previous->foreground + row;
-    const uint8_t *left = stage->background.depart.left;
-    const uint8_t *front = is_all_front ? stage->work.ones : foreground;
-    if (!is_all_front && left != NULL && rlf_kernel_next_mark(left + row, 0, width) < width) {
-        uint8_t *both = stage->velocity.is_steady + row;
-        for (int32_t x = 0; x < width; x++) {
-            both[x] = foreground[x] | left[row + x];
-        }
-        front = both;
-    }
-    *span = rlf_background_span(front, width);
-    return front;
-}
-
-/* The frame before as the samples of this one look at it. */
+/* The frame before as the samples of this one look at it: where something was in front, or was
+ * taken for background then, and has left since. */
 static rlf_kernel_flow_view look_back(const rlf_reconstruct *stage)
 {
     const image_grid *grid = &stage->grid;
     const rlf_slot *before = stage->previous;
-    float *seen = stage->velocity.seen;
+    const uint8_t *left = stage->background.depart.left;
+    const bool is_all_front = stage->def.background_method == RLF_BACKGROUND_OFF;
+    uint8_t *both = stage->velocity.is_steady;
     for (int32_t y = 0; y < grid->height; y++) {
-        rlf_span span;
-        const uint8_t *front = front_before(stage, y, &span);
-        ptrdiff_t i = (ptrdiff_t)y * grid->width + span.x0;
-        if (span.x0 < span.x1) {
-            rlf_kernel_front_row(before->depth + i, before->reason + i, front + span.x0,
-                                 span.x1 - span.x0, seen + i);
+        const ptrdiff_t row = (ptrdiff_t)y * grid->width;
+        const uint8_t *front = is_all_front ? stage->work.ones : before->foreground + row;
+        for (int32_t x = 0; x < grid->width && !is_all_front && left != NULL; x++) {
+            both[x] = before->foreground[row + x] | left[row + x];
+            front = both;
         }
+        rlf_kernel_front_row(before->depth + row, before->reason + row, front, grid->width,
+                             stage->velocity.seen + row);
     }
-    return (rlf_kernel_flow_view){.seen = seen,
+    return (rlf_kernel_flow_view){.seen = stage->velocity.seen,
                                   .ray_x = grid->ray_x,
                                   .ray_y = grid->ray_y,
                                   .width = grid->width,
@@ -279,18 +262,6 @@ static rlf_kernel_flow_view look_back(const rlf_reconstruct *stage)
                                   .fx = (float)grid->camera.fx,
                                   .fy = (float)grid->camera.fy,
                                   .limb = rlf_flow_limb_m};
-}
-
-/* Leaves the plane as it was, 0: what was written is still near at hand. */
-static void look_away(const rlf_reconstruct *stage)
-{
-    float *seen = stage->velocity.seen;
-    for (int32_t y = 0; y < stage->grid.height; y++) {
-        rlf_span span;
-        front_before(stage, y, &span);
-        memset(seen + (ptrdiff_t)y * stage->grid.width + span.x0, 0,
-               (size_t)(span.x1 - span.x0) * sizeof *seen);
-    }
 }
 
 /* Where the regions are. */
@@ -324,7 +295,6 @@ void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot)
         bool moves = region_motion(&job, region, &twist);
         rlf_velocity_cells(&job, region, &twist, moves);
     }
-    look_away(stage);
 }
 
 void velocity_allocate(velocity_planes *state, rlf_arena *arena, const image_grid *grid)

@@ -1,4 +1,4 @@
-#include "surface/motion/rim.h"
+#include "surface/motion/keyframe.h"
 
 #include <string.h>
 
