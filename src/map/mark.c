@@ -18,80 +18,55 @@ enum {
 };
 
 /* When the memory is full so large a share of the blocks leaves at a time, so that it is not looked
- * for at every frame: the farthest, by bins of their squared distance. */
-enum { EVICT_SHARE = 64, EVICT_BINS = 256 };
+ * for at every frame: the farthest, by their distance in blocks. */
+enum { EVICT_SHARE = 64, EVICT_BINS = 1024 };
 
 typedef struct marker {
     rlf_map *map;
     rlf_vec3 eye;
     rlf_mat3 R_world_camera;
     double to_blocks; /* per metre */
-    float reach;      /* a block's side times the focal length, metre pixels */
-    double reach2;    /* squared distance beyond which there is no room in a full memory, m^2 */
+    float size;       /* a block's side times the focal length, metre pixels */
+    int32_t reach;    /* blocks: so far away and farther a full memory has no room */
     rlf_map_change *change;
     int32_t at[BATCH * MARGINS][3];
     int32_t count;
 } marker;
 
-static bool may_leave(const rlf_map *map, int32_t block)
+static int32_t bin_of(const rlf_map *map, rlf_vec3 way)
 {
-    return (map->volume.flags[block] & MAP_LIVE) && map->volume.marked[block] != map->tick;
+    const double blocks = rlf_length(way) / (map->def.voxel_m * MAP_SIDE);
+    return blocks < EVICT_BINS - 1 ? (int32_t)blocks : EVICT_BINS - 1;
 }
 
-static double distance2_of(const rlf_map *map, int32_t block, rlf_vec3 eye)
+/* The bin of a block that may leave, or -1. */
+static int32_t bin_of_block(const marker *m, int32_t block)
 {
-    const rlf_vec3 way = map_block_way(map, map->volume.place[block], eye);
-    return rlf_dot(way, way);
+    const map_volume *v = &m->map->volume;
+    const bool may_leave = (v->flags[block] & MAP_LIVE) && v->marked[block] != m->map->tick;
+    return may_leave ? bin_of(m->map, map_block_way(m->map, v->place[block], m->eye)) : -1;
 }
 
-static int32_t bin_of(double distance2, double most)
+/* Makes room for a block that is this many blocks away: some of those that are farther and that
+ * this frame did not see are removed; returns how many. When there are none nothing farther has
+ * room. */
+static int32_t evict(marker *m, int32_t least)
 {
-    int32_t bin = (int32_t)(distance2 / most * EVICT_BINS);
-    return bin < EVICT_BINS ? bin : EVICT_BINS - 1;
-}
-
-/* The nearest bin beyond `least` such that it and those farther hold at least `wanted` blocks. */
-static int32_t nearest_bin(const rlf_map *map, rlf_vec3 eye, double most, int32_t least,
-                           int32_t wanted)
-{
-    int32_t count[EVICT_BINS];
-    memset(count, 0, sizeof(count));
-    for (int32_t i = 0; i < map->volume.high; i++) {
-        if (may_leave(map, i)) {
-            count[bin_of(distance2_of(map, i, eye), most)]++;
-        }
+    map_volume *v = &m->map->volume;
+    int32_t count[EVICT_BINS] = {0}, bin = EVICT_BINS, sum = 0, evicted = 0;
+    const int32_t wanted = v->count / EVICT_SHARE + 1;
+    for (int32_t i = 0; i < v->high; i++) {
+        const int32_t of = bin_of_block(m, i);
+        count[of > 0 ? of : 0] += of >= 0;
     }
-    int32_t bin = EVICT_BINS, sum = 0;
     while (bin > least + 1 && sum < wanted) {
         sum += count[--bin];
     }
-    return bin;
-}
-
-/* Makes room for a block at the squared distance `distance2` from the eye, m^2: some of those that
- * are farther and that this frame did not see are removed; returns how many. When there are none
- * `reach2` is where the farthest of the others is: nothing beyond has room. */
-static int32_t evict(rlf_map *map, rlf_vec3 eye, double distance2, double *reach2)
-{
-    map_volume *v = &map->volume;
-    double most = 0.0;
-    for (int32_t i = 0; i < v->high; i++) {
-        if (may_leave(map, i)) {
-            most = rlf_max(most, distance2_of(map, i, eye));
-        }
-    }
-    map->is_full = true;
-    const int32_t least = distance2 < most ? bin_of(distance2, most) : EVICT_BINS - 1;
-    if (least == EVICT_BINS - 1) {
-        *reach2 = most * least / EVICT_BINS;
-        return 0;
-    }
-    const int32_t wanted = v->count / EVICT_SHARE + 1;
-    const int32_t bin = nearest_bin(map, eye, most, least, wanted);
-    int32_t evicted = 0;
-    for (int32_t i = 0; i < v->high && evicted < wanted; i++) {
-        if (may_leave(map, i) && bin_of(distance2_of(map, i, eye), most) >= bin) {
-            map_journal_keep(map, i, false);
+    m->map->is_full = true;
+    m->reach = sum > 0 ? m->reach : least;
+    for (int32_t i = 0; i < v->high && sum > 0 && evicted < wanted; i++) {
+        if (bin_of_block(m, i) >= bin) {
+            map_journal_keep(m->map, i, false);
             map_volume_remove(v, i);
             evicted++;
         }
@@ -109,14 +84,13 @@ static int32_t take(marker *m, const int32_t at[3])
         return block;
     }
     const int16_t place[4] = {(int16_t)at[0], (int16_t)at[1], (int16_t)at[2]};
-    const rlf_vec3 way = map_block_way(map, place, m->eye);
-    const double distance2 = rlf_dot(way, way);
-    if (v->count == v->capacity && distance2 >= m->reach2) {
+    const int32_t bin = bin_of(map, map_block_way(map, place, m->eye));
+    if (v->count == v->capacity && bin >= m->reach) {
         return -1;
     }
     block = map_volume_add(v, at[0], at[1], at[2]);
     if (block < 0) {
-        m->change->blocks_evicted += evict(map, m->eye, distance2, &m->reach2);
+        m->change->blocks_evicted += evict(m, bin);
         block = map_volume_add(v, at[0], at[1], at[2]);
     }
     if (block >= 0) {
@@ -189,7 +163,7 @@ static float pixels_on_block(const marker *m, int32_t pixel)
 {
     const rlf_map *map = m->map;
     const float x = map->ray_x[pixel], y = map->ray_y[pixel], z = map->clean[pixel];
-    return m->reach * -map->planes[pixel].offset / (z * z * sqrtf(x * x + y * y + 1.0f));
+    return m->size * -map->planes[pixel].offset / (z * z * sqrtf(x * x + y * y + 1.0f));
 }
 
 /* Those pixels of a row that have their turn. */
@@ -218,8 +192,8 @@ void map_mark(rlf_map *map, const rlf_pose *T_world_camera, rlf_map_change *chan
                 .eye = T_world_camera->p,
                 .R_world_camera = rlf_quat_to_mat3(T_world_camera->q),
                 .to_blocks = 1.0 / side,
-                .reach = (float)(side * rlf_min(map->pinhole.fx, map->pinhole.fy)),
-                .reach2 = 1e300,
+                .size = (float)(side * rlf_min(map->pinhole.fx, map->pinhole.fy)),
+                .reach = INT32_MAX,
                 .change = change};
     /* The pixels that look move by one from frame to frame, in an order that skips about. */
     const int32_t phase = (int32_t)((map->frames * 7) % (SPACING * SPACING));

@@ -151,7 +151,7 @@ static void draw_block(map_caster *caster, int32_t block, const float corner[3])
 {
     const rlf_camera *c = &caster->camera;
     const float voxel_f = (float)(caster->map->def.voxel_m * rlf_max(c->fx, c->fy));
-    if (voxel_f < 0.5f * corner[2]) {
+    if (1 || voxel_f < 0.5f * corner[2]) {
         draw_eighths(caster, block, corner, voxel_f);
     } else {
         draw_voxels(caster, block, corner, voxel_f);

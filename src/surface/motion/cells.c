@@ -339,28 +339,6 @@ static void relax(const rlf_cell_grid *g)
     }
 }
 
-/* What samples of the cell from (x0, y0) on are read from is brought near. */
-RLF_KERNEL_PART void fetch_cell(const rlf_cell_grid *g, int32_t x0, int32_t y0)
-{
-    enum { LINE = 16 };
-    const image_grid *grid = &g->job->stage->grid;
-    const rlf_slot *now = g->job->now;
-    int32_t step = (g->size + SIDE_SAMPLES - 1) / SIDE_SAMPLES;
-    int32_t x1 = rlf_least(x0 + g->size, g->region->x1),
-            y1 = rlf_least(y0 + g->size, g->region->y1);
-    for (int32_t y = y0; y < y1; y += step) {
-        for (int32_t x = x0; x < x1; x += LINE) {
-            ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-            RLF_KERNEL_SOON(&now->label[i]);
-            RLF_KERNEL_SOON(&now->reason[i]);
-            RLF_KERNEL_SOON(&now->depth[i]);
-            RLF_KERNEL_SOON(&now->normal[0][i]);
-            RLF_KERNEL_SOON(&now->normal[1][i]);
-            RLF_KERNEL_SOON(&now->normal[2][i]);
-        }
-    }
-}
-
 static void fit_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
@@ -374,7 +352,6 @@ static void fit_rows(void *context, int32_t begin, int32_t end, int32_t worker)
             int32_t x0 = region->x0 + column * g->size;
             int32_t x1 = x0 + g->size < region->x1 ? x0 + g->size : region->x1;
             rlf_cell *cell = &g->cells[row * g->columns + column];
-            fetch_cell(g, x0 + g->size, y0);
             *cell = (rlf_cell){{{0.0f}}, limb_depth(g, x0, y0, x1, y1), RLF_CELL_EMPTY};
             if (!(cell->depth > 0.0f)) {
                 continue;

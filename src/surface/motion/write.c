@@ -15,21 +15,11 @@ static rlf_kernel_flow_cell cell_at(const rlf_cell_grid *g, int32_t row, int32_t
                                   cell->state != RLF_CELL_MOVES};
 }
 
-/* Pixels x0 <= x < x1, all between the middles of the flow's cells. */
-static void write_part(const rlf_cell_grid *g, rlf_kernel_flow *flow, int32_t y, int32_t x0,
-                       int32_t x1)
-{
-    const image_grid *grid = &g->job->stage->grid;
-    rlf_slot *now = g->job->now;
-    ptrdiff_t i = (ptrdiff_t)y * grid->width + x0;
-    float *const velocity[3] = {now->velocity[0] + i, now->velocity[1] + i, now->velocity[2] + i};
-    flow->first = x0 - g->region->x0;
-    rlf_kernel_flow_row(flow, now->depth + i, grid->ray_x + i, grid->ray_y + i, x1 - x0, velocity);
-}
-
 /* Half a cell at a time, what is not of a cell that rests. */
 static void write_run(const rlf_cell_grid *g, rlf_kernel_flow *flow, int32_t y, const rlf_run *run)
 {
+    const image_grid *grid = &g->job->stage->grid;
+    rlf_slot *now = g->job->now;
     const int32_t size = g->size, half = size / 2, down = y - g->region->y0;
     const int32_t row = down / size, above = row - (down % size < half ? 1 : 0);
     flow->down = ((float)down + 0.5f) * flow->inverse - 0.5f - (float)above;
@@ -45,7 +35,10 @@ static void write_run(const rlf_cell_grid *g, rlf_kernel_flow *flow, int32_t y, 
         for (int k = 0; k < 4; k++) {
             flow->cell[k] = cell_at(g, above + k / 2, before + k % 2);
         }
-        write_part(g, flow, y, x, next);
+        const ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+        float *const out[3] = {now->velocity[0] + i, now->velocity[1] + i, now->velocity[2] + i};
+        flow->first = right;
+        rlf_kernel_flow_row(flow, now->depth + i, grid->ray_x + i, grid->ray_y + i, next - x, out);
     }
 }
 
