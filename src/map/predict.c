@@ -1,5 +1,5 @@
-/* What a camera sees of the room: for each pixel the zero along its ray, found from the voxel that
- * is drawn there. */
+/* What a camera sees of the room: for each pixel the zero along its ray, found from the part
+ * of a block that is drawn there. */
 #include "map/predict.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* A view of the volume: voxels drawn as points say where each ray begins. */
+/* A view of the volume: eighths of blocks drawn as squares say where each ray begins. */
 #ifndef RLF_MAP_PREDICT_H
 #define RLF_MAP_PREDICT_H
 
@@ -20,7 +20,7 @@ typedef struct map_caster {
     map_view_planes *out;
     float per_metre; /* voxels */
     int32_t tile_columns;
-    float slack; /* metres behind a drawn voxel where its surface still may be */
+    float slack; /* metres behind a drawn square where its surface still may be */
 } map_caster;
 
 /* Draws the blocks with a surface: farthest depth per tile, and into the plane of depth, per pixel,

@@ -81,7 +81,7 @@ typedef struct map_view_planes {
     float *depth, *normal[3];
     uint8_t *grey;
     uint8_t *rgba;
-    int32_t *start;  /* block of the voxel drawn at a pixel */
+    int32_t *start;  /* block drawn at a pixel */
     float *tile_far; /* per tile of a prediction, the depth beyond which there is no surface */
     rlf_prediction last;
 } map_view_planes;

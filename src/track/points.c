@@ -6,35 +6,6 @@
 #define SAME_SIGMAS 4.0
 #define SAME_SLOPE 5.67
 
-typedef struct block {
-    double z[4];
-    double sum, least, most;
-    double grey;
-    int32_t lit;
-    bool is_whole;
-} block;
-
-static block read_block(const rlf_rig *rig, const rlf_track_view *view, const size_t at[4])
-{
-    block b = {.least = 1e9, .most = 0.0, .is_whole = true};
-    for (int k = 0; k < 4; k++) {
-        const double z = (double)view->depth[at[k]];
-        const bool is_room = view->is_static == NULL || view->is_static[at[k]] != 0;
-        if (!(z >= rig->depth_min_m && z <= rig->depth_max_m) || !is_room) {
-            b.is_whole = false;
-            return b;
-        }
-        b.sum += z;
-        b.least = rlf_min(b.least, z);
-        b.most = rlf_max(b.most, z);
-        if (view->grey != NULL && view->grey[at[k]] != 0) {
-            b.grey += view->grey[at[k]];
-            b.lit++;
-        }
-    }
-    return b;
-}
-
 void track_points_row(const track_points *points, const rlf_rig *rig, const float *ray_x,
                       const float *ray_y, const rlf_track_view *view, int32_t row)
 {
@@ -44,25 +15,27 @@ void track_points_row(const track_points *points, const rlf_rig *rig, const floa
         const size_t to = (size_t)row * (size_t)points->width + (size_t)column;
         const size_t first = (4 * (size_t)row + 1) * width + 4 * (size_t)column + 1;
         const size_t at[4] = {first, first + 1, first + width, first + width + 1};
-        const block b = read_block(rig, view, at);
-        points->z[to] = 0.0f;
-        points->grey[to] = 0;
-        if (!b.is_whole) {
-            continue;
-        }
-        const double z = 0.25 * b.sum, sigma = rlf_depth_noise_sigma(&rig->noise, z);
-        if (b.most - b.least > SAME_SIGMAS * sigma + slope * z) {
-            continue;
-        }
-        double x = 0.0, y = 0.0;
+        double x = 0.0, y = 0.0, z = 0.0, grey = 0.0, least = 1e9, most = 0.0;
+        bool is_whole = true, is_lit = view->grey != NULL;
         for (int k = 0; k < 4; k++) {
-            x += 0.25 * (double)ray_x[at[k]] * (double)view->depth[at[k]];
-            y += 0.25 * (double)ray_y[at[k]] * (double)view->depth[at[k]];
+            const double depth = (double)view->depth[at[k]];
+            const bool is_room = view->is_static == NULL || view->is_static[at[k]] != 0;
+            is_whole =
+                is_whole && is_room && depth >= rig->depth_min_m && depth <= rig->depth_max_m;
+            x += 0.25 * (double)ray_x[at[k]] * depth;
+            y += 0.25 * (double)ray_y[at[k]] * depth;
+            z += 0.25 * depth;
+            least = rlf_min(least, depth);
+            most = rlf_max(most, depth);
+            is_lit = is_lit && view->grey[at[k]] != 0;
+            grey += is_lit ? 0.25 * view->grey[at[k]] : 0.0;
         }
-        points->x[to] = (float)x;
-        points->y[to] = (float)y;
-        points->z[to] = (float)z;
-        points->sigma[to] = (float)(0.5 * sigma);
-        points->grey[to] = b.lit == 4 ? (uint8_t)(0.25 * b.grey + 0.5) : 0;
+        const double sigma = rlf_depth_noise_sigma(&rig->noise, z);
+        const bool is_one = is_whole && most - least <= SAME_SIGMAS * sigma + slope * z;
+        points->x[to] = is_one ? (float)x : 0.0f;
+        points->y[to] = is_one ? (float)y : 0.0f;
+        points->z[to] = is_one ? (float)z : 0.0f;
+        points->sigma[to] = is_one ? (float)(0.5 * sigma) : 0.0f;
+        points->grey[to] = is_one && is_lit ? (uint8_t)(grey + 0.5) : 0;
     }
 }

@@ -172,6 +172,7 @@ static void centre(rlf_keyframe *key)
 bool keyframe_take(const keyframe_view *view, const rlf_rect *rect, int32_t size, rlf_keyframe *out)
 {
     memset(out, 0, sizeof(*out));
+    out->turn = rlf_quat_identity();
     int32_t step = 1;
     while (size > KEYFRAME_POINTS * step * step) {
         step++;

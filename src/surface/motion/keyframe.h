@@ -43,6 +43,8 @@ typedef struct rlf_keyframe {
     rlf_rect rect; /* of its pixels, as it was taken */
     int32_t size;  /* pixels, then */
     rlf_vec3 centre;
+    rlf_quat
+        turn; /* since it was taken, of the camera's making: points are told as they were then */
     double length; /* metres: of a turn about the centre it makes a shift */
     keyframe_point point[KEYFRAME_POINTS];
     keyframe_rim rim[KEYFRAME_RIMS];

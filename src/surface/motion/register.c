@@ -39,7 +39,8 @@ static placed place(const rlf_keyframe *key, const double x[6])
 {
     placed out = {.key = key};
     const double s = 1.0 / key->length;
-    const rlf_quat q = rlf_quat_from_rotation_vector(rlf_vec3_make(s * x[3], s * x[4], s * x[5]));
+    const rlf_quat by = rlf_quat_from_rotation_vector(rlf_vec3_make(s * x[3], s * x[4], s * x[5]));
+    const rlf_quat q = rlf_quat_mul(by, key->turn);
     for (int c = 0; c < 3; c++) {
         const rlf_vec3 axis = {c == 0, c == 1, c == 2}, to = rlf_rotate(q, axis);
         out.r[0][c] = to.x;
