@@ -197,7 +197,7 @@ static rlf_result read_viewpoint(rlf_map *map, const uint8_t data[VIEWPOINT_SIZE
     }
     rlf_pose *T = &map->viewpoint[map->viewpoint_count++];
     memcpy(T, values, sizeof(values));
-    return map_pose_is_sound(T) ? RLF_OK : damaged("a viewpoint is no pose");
+    return math_pose_is_sound(T) ? RLF_OK : damaged("a viewpoint is no pose");
 }
 
 static rlf_result read_block(rlf_map *map, const uint8_t data[BLOCK_SIZE], uint64_t *last_key)

@@ -38,7 +38,7 @@ static rlf_fuse_view view_make(const rlf_map *map, const rlf_map_view *in, int32
         .cy = (float)c->cy,
         .planes = map->planes,
         .least = map->least,
-        .rgba = def->keep_color ? in->rgba : NULL,
+        .rgba = in->rgba,
         .color_turn = (int32_t)(map->frames / turns & 3),
         .source_of = map->source_of,
         .noise = rlf_kernel_noise_make(&def->rig.noise),
@@ -176,7 +176,7 @@ rlf_result rlf_map_integrate(rlf_map *map, const rlf_map_view *view, const rlf_p
         !RLF_ASSERT(view->depth != NULL)) {
         return RLF_ERROR_INVALID;
     }
-    if (!map_pose_is_sound(T_world_camera)) {
+    if (!math_pose_is_sound(T_world_camera)) {
         return rlf_fail(RLF_ERROR_INVALID, "map: the camera's pose is not finite or its quaternion "
                                            "is not of unit length: the frame is left out");
     }

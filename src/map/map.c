@@ -21,7 +21,6 @@ rlf_map_def rlf_map_def_default(void)
     def.voxel_m = 0.006;
     def.memory_mb = 288;
     def.blocks_per_frame = 768;
-    def.keep_color = true;
     return def;
 }
 
@@ -148,13 +147,6 @@ void rlf_map_clear(rlf_map *map)
     map->carve_cursor = 0;
     memset(&map->out.last, 0, sizeof(map->out.last));
     rlf_map_fence(map);
-}
-
-bool map_pose_is_sound(const rlf_pose *T)
-{
-    const rlf_quat q = T->q;
-    const double length2 = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-    return rlf_dot(T->p, T->p) < 1e12 && length2 > 0.98 && length2 < 1.02;
 }
 
 double rlf_map_truncation(const rlf_map *map)

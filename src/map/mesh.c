@@ -207,10 +207,8 @@ static void place_corner(const mesher *m, int32_t block, int32_t axis, int32_t v
         const double at = m->v->place[block][k] * MAP_SIDE + in + (k == axis ? t : 0.0);
         m->mesh->position[3 * number + (size_t)k] = (float)(at * m->map->def.voxel_m);
     }
-    if (m->mesh->rgba != NULL) {
-        const bool is_first = t < 0.5;
-        map_voxel_color(is_first ? a : b, is_first ? voxel : next, &m->mesh->rgba[4 * number]);
-    }
+    const bool is_first = t < 0.5;
+    map_voxel_color(is_first ? a : b, is_first ? voxel : next, &m->mesh->rgba[4 * number]);
 }
 
 static void place_corners(const mesher *m)
@@ -270,10 +268,9 @@ static bool build(mesher *m)
     mesh->index = rlf_alloc_array(mesh->triangle_count + 1, 3 * sizeof(uint32_t));
     mesh->position = rlf_alloc_array(mesh->vertex_count + 1, 3 * sizeof(float));
     mesh->normal = rlf_alloc_array(mesh->vertex_count + 1, 3 * sizeof(float));
-    const bool has_color = m->map->def.keep_color;
-    mesh->rgba = has_color ? rlf_alloc_array(mesh->vertex_count + 1, 4) : NULL;
+    mesh->rgba = rlf_alloc_array(mesh->vertex_count + 1, 4);
     if (mesh->index == NULL || mesh->position == NULL || mesh->normal == NULL ||
-        (has_color && mesh->rgba == NULL)) {
+        mesh->rgba == NULL) {
         return false;
     }
     place_corners(m);

@@ -11,8 +11,7 @@ typedef struct ray {
     const map_volume *v;
     float at[3], way[3], length; /* of way */
     int32_t block_at[3], block;  /* the block looked at last */
-    bool has_grey;
-    float z0, d0; /* the last place in front of a surface; d0 < 0: there is none */
+    float z0, d0;                /* the last place in front of a surface; d0 < 0: there is none */
 } ray;
 
 /* The block with voxel (i, j, k), or -1. */
@@ -27,20 +26,6 @@ static int32_t find_block(ray *r, const int32_t voxel[3])
         r->block = map_volume_find(r->v, at[0], at[1], at[2]);
     }
     return r->block;
-}
-
-/* Depth at which the ray leaves the block looked at last. */
-static float leave(const ray *r)
-{
-    float least = 1e30f;
-    for (int32_t k = 0; k < 3; k++) {
-        if (r->way[k] * r->way[k] > 1e-6f) {
-            const float side = r->way[k] > 0.0f ? 7.5f : -0.5f;
-            const float z = ((float)(r->block_at[k] * MAP_SIDE) + side - r->at[k]) / r->way[k];
-            least = z < least ? z : least;
-        }
-    }
-    return least;
 }
 
 /* The corners of a cell, and what is read of them. */
@@ -137,7 +122,7 @@ static bool refine(ray *r, float start, hit *out)
     }
     const float scale = 1.0f / sqrtf(size2);
     out->z = z;
-    out->grey = r->has_grey ? mean_grey(map_block_at(r->v, c.block), &c) : 0;
+    out->grey = mean_grey(map_block_at(r->v, c.block), &c);
     for (int32_t k = 0; k < 3; k++) {
         out->normal[k] = g[k] * scale;
     }
@@ -157,8 +142,7 @@ static bool cast(ray *r, float z, float far_z, hit *out)
         const int32_t block = find_block(r, voxel_at);
         if (block < 0) {
             r->d0 = -1.0f;
-            const float next = leave(r);
-            z = (next > z ? next : z) + 0.01f * voxel;
+            z += 2.0f * voxel; /* less than what blocks reach beyond a surface */
             continue;
         }
         const int32_t i =
@@ -287,7 +271,6 @@ static void ray_begin(const map_caster *c, ray *r)
     r->v = &c->map->volume;
     r->block_at[0] = INT32_MAX;
     r->block = -1;
-    r->has_grey = c->map->def.keep_color;
 }
 
 static void cast_rows(void *context, int32_t begin, int32_t end, int32_t worker)
@@ -314,7 +297,7 @@ static void finish(rlf_map *map, const rlf_camera *camera, const rlf_pose *T)
         .normal_x = out->normal[0],
         .normal_y = out->normal[1],
         .normal_z = out->normal[2],
-        .grey = map->def.keep_color ? out->grey : NULL,
+        .grey = out->grey,
     };
 }
 
@@ -335,7 +318,7 @@ rlf_result rlf_map_predict(rlf_map *map, const rlf_camera *camera, const rlf_pos
                         (int)camera->width, (int)camera->height, (int)map->pinhole.width,
                         (int)map->pinhole.height);
     }
-    if (!map_pose_is_sound(T_world_camera)) {
+    if (!math_pose_is_sound(T_world_camera)) {
         return rlf_fail(RLF_ERROR_INVALID, "rlf_map_predict: the pose is not finite or its "
                                            "quaternion is not of unit length");
     }
@@ -354,7 +337,7 @@ rlf_result rlf_map_predict(rlf_map *map, const rlf_camera *camera, const rlf_pos
 
 const uint8_t *rlf_map_predict_color(rlf_map *map)
 {
-    if (!RLF_ASSERT(map != NULL) || !map->def.keep_color || map->out.last.depth == NULL) {
+    if (!RLF_ASSERT(map != NULL) || map->out.last.depth == NULL) {
         return NULL;
     }
     const rlf_prediction *p = &map->out.last;

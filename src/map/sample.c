@@ -83,19 +83,10 @@ void map_voxel_color(const map_block *block, int32_t voxel, uint8_t rgba[4])
     rgba[3] = luma > 0 ? 255 : 0;
 }
 
-/* Where not all of a cell is known, its nearest voxel answers. */
-static rlf_map_point nearest_voxel(const rlf_map *map, const map_cell *cell, const double at[3])
+static void tell(const rlf_map *map, double distance, rlf_map_point *out)
 {
-    rlf_map_point out;
-    memset(&out, 0, sizeof(out));
-    const int32_t c = (at[0] >= 0.5 ? 1 : 0) | (at[1] >= 0.5 ? 2 : 0) | (at[2] >= 0.5 ? 4 : 0);
-    if (cell->block[c] == NULL || cell->weight[c] == 0) {
-        return out;
-    }
-    const double d = (double)cell->distance[c];
-    out.state = d > 0.0 ? RLF_MAP_FREE : RLF_MAP_INSIDE;
-    out.distance = d * map->def.voxel_m;
-    return out;
+    out->state = distance > 0.0 ? RLF_MAP_FREE : RLF_MAP_INSIDE;
+    out->distance = distance * map->def.voxel_m;
 }
 
 rlf_map_point rlf_map_sample(const rlf_map *map, rlf_vec3 p_world)
@@ -114,13 +105,17 @@ rlf_map_point rlf_map_sample(const rlf_map *map, rlf_vec3 p_world)
     map_cell cell;
     memset(&cell, 0, sizeof(cell));
     if (!map_cell_read(&map->volume, block, voxel[0] & 7, voxel[1] & 7, voxel[2] & 7, &cell)) {
-        return nearest_voxel(map, &cell, at);
+        const int32_t near =
+            (at[0] >= 0.5 ? 1 : 0) | (at[1] >= 0.5 ? 2 : 0) | (at[2] >= 0.5 ? 4 : 0);
+        if (cell.weight[near] > 0) { /* where not all is known the nearest voxel answers */
+            tell(map, (double)cell.distance[near], &out);
+        }
+        return out;
     }
     float g[3];
     const float in[3] = {(float)at[0], (float)at[1], (float)at[2]};
     const double d = (double)map_cell_value(cell.distance, in, g);
-    out.state = d > 0.0 ? RLF_MAP_FREE : RLF_MAP_INSIDE;
-    out.distance = d * map->def.voxel_m;
+    tell(map, d, &out);
     out.is_far = d >= 0.95 * MAP_TRUNCATION_LEAST || d <= -0.95 * MAP_TRUNCATION_LEAST;
     const rlf_vec3 gradient = {(double)g[0], (double)g[1], (double)g[2]};
     /* A flat field, cut at the truncation, has no direction. */

@@ -8,6 +8,7 @@
 
 #include "base/arena.h"
 #include "kernel/fuse.h"
+#include "math/rigid.h"
 #include "relief/map.h"
 
 /* Least and most truncation, voxels. */
@@ -195,7 +196,6 @@ int32_t map_voxel_near(const rlf_map *map, rlf_vec3 p, int32_t *out_voxel);
 void map_voxel_color(const map_block *block, int32_t voxel, uint8_t rgba[4]);
 
 /* ---- map.c */
-bool map_pose_is_sound(const rlf_pose *T);
 /* From a point to the middle of the block at a place, world, metres. */
 static inline rlf_vec3 map_block_way(const rlf_map *map, const int16_t place[4], rlf_vec3 from)
 {

@@ -48,3 +48,10 @@ rlf_vec3 math_rotation_vector(rlf_quat q)
     const double half = rlf_length(axis);
     return rlf_scale(axis, half > 1e-9 ? 2.0 * rlf_atan2(half, sign * q.w) / half : 2.0);
 }
+
+bool math_pose_is_sound(const rlf_pose *T)
+{
+    const rlf_quat q = T->q;
+    const double length2 = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+    return rlf_dot(T->p, T->p) < 1e12 && length2 > 0.98 && length2 < 1.02;
+}

@@ -22,4 +22,7 @@ bool math_rigid_solve(const math_rigid_sums *sums, double least, double x[6]);
 /* The axis of a turn times its angle, 0 to pi. */
 rlf_vec3 math_rotation_vector(rlf_quat q);
 
+/* Finite, and its quaternion of unit length, to 1 %. */
+bool math_pose_is_sound(const rlf_pose *T);
+
 #endif

@@ -312,13 +312,6 @@ static void judge(const track_sums *sums, const track_ways *ways, const rlf_pred
                                                                                : RLF_TRACK_GOOD;
 }
 
-static bool is_pose(const rlf_pose *T)
-{
-    const rlf_quat q = T->q;
-    const double length = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-    return rlf_vec3_is_finite(T->p) && length > 0.98 && length < 1.02;
-}
-
 rlf_result rlf_tracker_align(rlf_tracker *tracker, const rlf_track_view *view,
                              const rlf_prediction *prediction, const rlf_pose *start,
                              rlf_track_result *out)
@@ -327,7 +320,7 @@ rlf_result rlf_tracker_align(rlf_tracker *tracker, const rlf_track_view *view,
                     start != NULL && out != NULL)) {
         return RLF_ERROR_INVALID;
     }
-    if (!is_pose(start) || !is_pose(&prediction->T_world_camera)) {
+    if (!math_pose_is_sound(start) || !math_pose_is_sound(&prediction->T_world_camera)) {
         return rlf_fail(RLF_ERROR_INVALID, "track: the pose to start from is not a pose");
     }
     align_job job = {.tracker = tracker, .view = view, .prediction = prediction};
