@@ -129,24 +129,24 @@ static void fuse_blocks(void *context, int32_t begin, int32_t end, int32_t worke
 {
     const fuse_job *job = context;
     rlf_map *map = job->map;
-    const double voxel = map->def.voxel_m;
+    const double voxel = map->def.voxel_m, side = voxel * MAP_SIDE;
     const rlf_mat3 *R = &job->R_camera_world;
+    rlf_fuse_place place;
     (void)worker;
+    for (int32_t k = 0; k < 9; k++) {
+        place.step[k / 3][k % 3] = (float)(R->m[k % 3][k / 3] * voxel);
+    }
     for (int32_t i = begin; i < end; i++) {
         const int32_t block = map->chosen[i];
         if (i + 1 < end) {
             look_ahead(map_block_at(&map->volume, map->chosen[i + 1]));
         }
         const int16_t *at = map->volume.place[block];
-        const double side = voxel * MAP_SIDE;
         const rlf_vec3 corner = {at[0] * side, at[1] * side, at[2] * side};
         const rlf_vec3 p = rlf_mat3_mul_vec(R, rlf_sub(corner, job->T_world_camera.p));
-        rlf_fuse_place place = {.origin = {(float)p.x, (float)p.y, (float)p.z}};
-        for (int32_t k = 0; k < 3; k++) {
-            for (int32_t r = 0; r < 3; r++) {
-                place.step[k][r] = (float)(R->m[r][k] * voxel);
-            }
-        }
+        place.origin[0] = (float)p.x;
+        place.origin[1] = (float)p.y;
+        place.origin[2] = (float)p.z;
         if (rlf_kernel_fuse_block(&job->view, &place, map_block_at(&map->volume, block)) ||
             (map->volume.flags[block] & MAP_IS_NEW) != 0) {
             map_block_look(&map->volume, block);

@@ -4,6 +4,7 @@
  * (the region's motion, the frame before's, the neighbour's, none) are tried against the frame
  * before, and the best is improved by Gauss and Newton. A guess matters because a limb that crosses
  * the picture moves by as much as its own width from frame to frame. */
+#include "surface/motion/keyframe.h"
 #include "surface/motion/motion.h"
 
 #include "surface/window.h"
@@ -42,11 +43,6 @@ typedef struct velocity_guess {
     rlf_velocity of;
     float cost; /* < 0: not yet known */
 } velocity_guess;
-
-size_t rlf_cell_capacity(const image_grid *grid)
-{
-    return ((size_t)grid->width / SIDE_SAMPLES + 1) * ((size_t)grid->height / SIDE_SAMPLES + 1);
-}
 
 static float depth_of(const rlf_cell_grid *g, int32_t x, int32_t y)
 {
@@ -383,4 +379,16 @@ void rlf_velocity_cells(const rlf_flow *job, const rlf_region *region, const rlf
     rlf_parallel_for(job->stage->def.pool, g.rows, 1, fit_rows, &g);
     relax(&g);
     rlf_cells_write(&g);
+}
+
+void velocity_allocate(velocity_planes *state, rlf_arena *arena, const image_grid *grid)
+{
+    const size_t n = (size_t)grid->count;
+    const size_t cells =
+        ((size_t)grid->width / SIDE_SAMPLES + 1) * ((size_t)grid->height / SIDE_SAMPLES + 1);
+    state->seen = arena_take(arena, n, sizeof(float));
+    state->cells = arena_take(arena, cells, sizeof *state->cells);
+    state->keyframe = arena_take(arena, RLF_KEYFRAMES, sizeof(rlf_keyframe));
+    arena_next_owner(arena);
+    state->is_steady = arena_lend(arena, n, 1);
 }

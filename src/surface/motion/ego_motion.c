@@ -6,7 +6,7 @@
  * moves when it does so in most parts, and in nearly all at which that motion would be seen.
  * Somebody who walks by, however large, leaves the room behind him at rest; a bare wall cannot tell
  * a motion along itself, so who turns before it decides nothing. */
-#include "surface/stage.h"
+#include "surface/motion/motion.h"
 
 #include "kernel/kernel.h"
 #include "math/rigid.h"
@@ -52,16 +52,10 @@ static bool distance_to(const ego_job *job, int32_t k, const rlf_pose *pose, rlf
     const image_grid *grid = job->grid;
     const rlf_ego_point *from = &job->view->points[k];
     rlf_vec3 p = rlf_transform(pose, from->point);
-    if (!(p.z > 0.05)) {
+    const ptrdiff_t to = rlf_flow_pixel(grid, from->pixel, p);
+    if (to < 0) {
         return false;
     }
-    int32_t i = from->pixel;
-    double u = i % grid->width + (p.x / p.z - grid->ray_x[i]) * grid->camera.fx;
-    double v = i / grid->width + (p.y / p.z - grid->ray_y[i]) * grid->camera.fy;
-    if (!(u > -0.5 && v > -0.5 && u < grid->width - 0.5 && v < grid->height - 0.5)) {
-        return false;
-    }
-    int32_t to = (int32_t)(v + 0.5) * grid->width + (int32_t)(u + 0.5);
     double z = job->depth[to];
     if (!(z > 0.0)) {
         return false;

@@ -39,8 +39,8 @@ static bool speed_beyond(const rlf_flow *job, ptrdiff_t i, rlf_vec3 p, rlf_vec3 
 {
     const image_grid *grid = &job->stage->grid;
     rlf_vec3 q = rlf_mad(p, v, -(double)job->dt);
-    ptrdiff_t k = rlf_flow_pixel_before(job, i, (float)q.x, (float)q.y, (float)q.z);
-    if (k < 0) {
+    const ptrdiff_t k = rlf_flow_pixel(grid, i, q);
+    if (k < 0 || !(job->view.seen[k] > 0.0f)) {
         return false;
     }
     rlf_vec3 step = rlf_sub(q, rlf_flow_point(grid, job->before->depth, k));
@@ -295,14 +295,4 @@ void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot)
         bool moves = region_motion(&job, region, &twist);
         rlf_velocity_cells(&job, region, &twist, moves);
     }
-}
-
-void velocity_allocate(velocity_planes *state, rlf_arena *arena, const image_grid *grid)
-{
-    size_t n = (size_t)grid->count;
-    state->seen = arena_take(arena, n, sizeof(float));
-    state->cells = arena_take(arena, rlf_cell_capacity(grid), sizeof *state->cells);
-    state->keyframe = arena_take(arena, RLF_KEYFRAMES, sizeof *state->keyframe);
-    arena_next_owner(arena);
-    state->is_steady = arena_lend(arena, n, 1);
 }

@@ -3,6 +3,8 @@
 #include "surface/motion/motion.h"
 #include "surface/window.h"
 
+static const float fastest = 5.0f; /* m/s */
+
 static rlf_kernel_flow_cell cell_at(const rlf_cell_grid *g, int32_t row, int32_t column)
 {
     if (row < 0 || column < 0 || row >= g->rows || column >= g->columns) {
@@ -50,7 +52,7 @@ static rlf_kernel_flow flow_of(const rlf_cell_grid *g)
                              .moves = g->moves,
                              .inverse = 1.0f / (float)g->size,
                              .limb = 2.0f * rlf_flow_limb_m,
-                             .fastest = rlf_flow_fastest};
+                             .fastest = fastest};
 }
 
 static void write_rows(void *context, int32_t begin, int32_t end, int32_t worker)
