@@ -278,14 +278,12 @@ static void fit_cell(const rlf_cell_grid *g, const samples *all, const rlf_cell 
  */
 static bool neighbour_mean(const rlf_cell_grid *g, int32_t row, int32_t column, rlf_velocity *out)
 {
-    const int32_t side[8][2] = {{-1, -1}, {0, -1}, {1, -1}, {-1, 0},
-                                {1, 0},   {-1, 1}, {0, 1},  {1, 1}};
     const rlf_cell *cell = &g->cells[row * g->columns + column];
     float count = 0.0f;
     *out = (rlf_velocity){{0.0f}};
-    for (int k = 0; k < 8; k++) {
-        int32_t r = row + side[k][1], c = column + side[k][0];
-        if (r < 0 || c < 0 || r >= g->rows || c >= g->columns) {
+    for (int k = 0; k < 9; k++) {
+        int32_t r = row + k / 3 - 1, c = column + k % 3 - 1;
+        if (k == 4 || r < 0 || c < 0 || r >= g->rows || c >= g->columns) {
             continue;
         }
         const rlf_cell *next = &g->cells[r * g->columns + c];
