@@ -1,4 +1,5 @@
 /* A view into the volume: the blocks near what it sees, then those that it sees through. */
+#include "camera/pixels.h"
 #include "map/volume.h"
 
 #include <stddef.h>
@@ -81,18 +82,8 @@ static bool is_seen_through(const fuse_job *job, int32_t block)
     const rlf_map *map = job->map;
     const rlf_vec3 way = map_block_way(map, map->volume.place[block], job->T_world_camera.p);
     const rlf_vec3 p = rlf_mat3_mul_vec(&job->R_camera_world, way);
-    const rlf_camera *c = &map->pinhole;
-    if (!(p.z > 0.1)) {
-        return false;
-    }
-    const double u = c->fx * p.x / p.z + c->cx + 0.5, v = c->fy * p.y / p.z + c->cy + 0.5;
-    if (!(u >= 0.0 && v >= 0.0 && u < c->width && v < c->height)) {
-        return false;
-    }
-    int32_t pixel = (int32_t)v * c->width + (int32_t)u;
-    pixel = map->source_of != NULL ? map->source_of[pixel] : pixel;
-    const double depth = pixel >= 0 ? map->clean[pixel] : 0.0;
-    return depth > p.z;
+    const int32_t pixel = p.z > 0.1 ? camera_pixel_of(&map->def.rig.depth, p) : -1;
+    return pixel >= 0 && map->clean[pixel] > p.z;
 }
 
 static void choose_carved(fuse_job *job)

@@ -44,23 +44,21 @@ void map_journal_keep(rlf_map *map, int32_t block, bool is_new)
     if (map->volume.kept[block] == j->epoch) {
         return;
     }
-    bool is_full = j->memo_count == j->memo_capacity || j->slot_count == j->slot_capacity ||
-                   !map_slabs_reserve(&j->slabs, j->slot_count + 1);
-    if (is_full) {
+    const bool is_full = j->memo_count == j->memo_capacity || j->slot_count == j->slot_capacity;
+    if (is_full || !map_slabs_reserve(&j->slabs, j->slot_count + 1)) {
         begin_epoch(map);
         j->has_moved = true;
     }
     map->volume.kept[block] = j->epoch;
-    map_memo *memo = &j->memo[j->memo_count];
-    memcpy(memo->place, map->volume.place[block], sizeof(memo->place));
-    memo->slot = -1;
-    if (!is_new && map_slabs_reserve(&j->slabs, j->slot_count + 1)) {
-        memo->slot = j->slot_count++;
-        *map_slabs_at(&j->slabs, memo->slot) = *map_block_at(&map->volume, block);
-    } else if (!is_new) {
+    if (!is_new && !map_slabs_reserve(&j->slabs, j->slot_count + 1)) {
         return; /* no memory for a single slab: this block cannot be taken back */
     }
-    j->memo_count++;
+    map_memo *memo = &j->memo[j->memo_count++];
+    memcpy(memo->place, map->volume.place[block], sizeof(memo->place));
+    memo->slot = is_new ? -1 : j->slot_count++;
+    if (!is_new) {
+        *map_slabs_at(&j->slabs, memo->slot) = *map_block_at(&map->volume, block);
+    }
 }
 
 /* New blocks go first, so that there is room for those that come back. A block that left and came
@@ -79,13 +77,8 @@ static void restore(rlf_map *map)
     for (int32_t i = 0; i < j->memo_count; i++) {
         const map_memo *memo = &j->memo[i];
         const int16_t *p = memo->place;
-        if (memo->slot < 0) {
-            continue;
-        }
-        int32_t block = map_volume_find(v, p[0], p[1], p[2]);
-        if (block < 0) {
-            block = map_volume_add(v, p[0], p[1], p[2]);
-        }
+        int32_t block = memo->slot >= 0 ? map_volume_find(v, p[0], p[1], p[2]) : -1;
+        block = memo->slot >= 0 && block < 0 ? map_volume_add(v, p[0], p[1], p[2]) : block;
         if (block >= 0) {
             *map_block_at(v, block) = *map_slabs_at(&j->slabs, memo->slot);
             map_block_look(v, block);

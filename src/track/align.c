@@ -253,11 +253,6 @@ static void limit(track_gate *gate, const track_sums *sums)
     gate->grey = sums->grey_weight > 0.0 ? sums->grey_residual / sums->grey_weight : 0.0;
 }
 
-static track_sums sums_of(const align_job *job, const level *l)
-{
-    return track_sums_of(&job->tracker->points, l->stride, job->prediction, &job->T, &job->gate);
-}
-
 /* By the best fit of depth so far: brightness that pulls depth off must not open it further. */
 static track_ways ways_of(align_job *job, const track_sums *sums)
 {
@@ -269,7 +264,8 @@ static track_ways ways_of(align_job *job, const track_sums *sums)
 static bool align_level(align_job *job, const level *l, track_sums *sums)
 {
     for (int32_t round = 0; round < l->rounds; round++) {
-        *sums = sums_of(job, l);
+        *sums =
+            track_sums_of(&job->tracker->points, l->stride, job->prediction, &job->T, &job->gate);
         if (sums->matched * l->stride * l->stride < LEAST_POINTS || !(sums->information > 0.0)) {
             return false;
         }
@@ -329,10 +325,11 @@ rlf_result rlf_tracker_align(rlf_tracker *tracker, const rlf_track_view *view,
     job.T = rlf_pose_mul(&T_camera_world, start);
     job.gate = (track_gate){.metres = GATE_M, .cut = 1e9};
     *out = (rlf_track_result){.T_world_camera = *start, .weak_way = {0, 0, 1}};
-    track_sums sums = {.tried = 0};
     job.sigma = 1e9;
     job.reach = reach_of(&tracker->points);
-    sums = sums_of(&job, &levels[0]); /* one that is far off pulls in no round */
+    /* One that is far off pulls in no round. */
+    track_sums sums =
+        track_sums_of(&tracker->points, levels[0].stride, prediction, &job.T, &job.gate);
     limit(&job.gate, &sums);
     for (int i = 0; i < LEVELS; i++) {
         if (!align_level(&job, &levels[i], &sums)) {
