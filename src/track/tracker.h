@@ -65,17 +65,17 @@ static inline double track_entry(const double a[21], int row, int column)
     return row > column ? a[row * (row + 1) / 2 + column] : a[column * (column + 1) / 2 + row];
 }
 
-/* Sums over points. */
+/* Sums over points, of which those in double precision are summed as one array. */
 typedef struct track_sums {
     track_equations depth, grey;
-    double information; /* sum of the weights */
-    double squared;     /* of weighted residuals over their deviation */
-    double weight;      /* sum of the robust weights */
-    int32_t tried;      /* points of the frame that fall on a known part of the prediction, or
-                           into its picture where nothing is known */
-    int32_t matched;    /* points within the gate */
-    int32_t bins[TRACK_BINS];
+    double information;                /* sum of the weights */
+    double squared;                    /* of weighted residuals over their deviation */
+    double weight;                     /* sum of the robust weights */
     double grey_residual, grey_weight; /* sums: the pictures' mean difference, levels */
+    int32_t tried;   /* points of the frame that fall on a known part of the prediction, or
+                        into its picture where nothing is known */
+    int32_t matched; /* points within the gate */
+    int32_t bins[TRACK_BINS];
 } track_sums;
 
 /* How points count. */

@@ -12,11 +12,6 @@ static const double significant_3 = 21.1, likely_1 = 6.63;
 /* Square of a slope in units of its variance in the worst direction: it is right to 5 %. */
 static const double precise = 400.0;
 
-static double square_of(double x)
-{
-    return x * x;
-}
-
 void keyframe_push(rlf_keyframe *key, double time_s, const double x[6])
 {
     if (key->ring_count == KEYFRAME_RING) {
@@ -93,7 +88,7 @@ static void measure(rlf_keyframe *key, int first)
             break;
         }
         for (int c = 0; c < 3; c++) {
-            length += square_of(slope[c]);
+            length += slope[c] * slope[c];
             worst = rlf_max(worst, key->spread[first + c][first + c]);
         }
         is_precise = length > precise * worst * variance;
