@@ -16,7 +16,6 @@ enum {
     MOST_SAMPLES = RLF_FLOW_BATCH, /* SIDE_SAMPLES squared */
     LEAST_SAMPLES = 6,             /* that must agree */
     PASSES = 3,
-    GUESSES = 4,
     SEARCH = 4 /* steps to each side */
 };
 
@@ -240,7 +239,7 @@ static void fit_cell(const rlf_cell_grid *g, const samples *all, const rlf_cell 
     float *const *was = g->job->before->velocity;
     const int32_t i = all->pixel[middle];
     const rlf_velocity before = {{was[0][i], was[1][i], was[2][i]}};
-    velocity_guess guess[GUESSES], still = {{{0.0f}}, 0.0f};
+    velocity_guess guess[4], still = {{{0.0f}}, 0.0f};
     velocity_guess whole = {rlf_velocity_make(v.x, v.y, v.z), 0.0f};
     still.cost = cost_of(g, all, still.of, INFINITY);
     whole.cost = g->moves ? cost_of(g, all, whole.of, INFINITY) : still.cost;

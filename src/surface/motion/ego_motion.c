@@ -14,15 +14,13 @@
 #include <math.h>
 
 enum {
-    PASSES = 5,
     PERIOD = 8,        /* frames between two views that are kept: the older is 8 to 16 frames old */
     MOVING_PERIOD = 4, /* while the camera moves; motion is taken to go on unseen for as long */
     SURE_FRAMES = 2,   /* in a row */
-    FEWEST_OF_PART = 8, /* points that tell anything */
-    COUNTED = 7         /* one pixel of so many tells how many are seen */
+    FEWEST_OF_PART = 8 /* points that tell anything */
 };
 
-static const double gates_m[PASSES] = {0.3, 0.15, 0.05, 0.0, 0.0};
+static const double gates_m[] = {0.3, 0.15, 0.05, 0.0, 0.0};
 static const double tukey = 4.685;      /* sigmas; 95 % efficient (Holland and Welsch 1977) */
 static const double rest_square = 1.5;  /* of sigmas, mean: 1 is noise alone */
 static const double rest_sigmas = 3.0;  /* what is nearer to rest than that is at rest */
@@ -72,7 +70,7 @@ static double sigma_at(const ego_job *job, int32_t k)
 {
     const rlf_ego_point *from = &job->view->points[k];
     double facing = -rlf_dot(from->normal, from->point) / from->point.z;
-    return 1.41421356 * rlf_kernel_sigma(job->noise, (float)from->point.z) * facing;
+    return sqrt(2.0) * rlf_kernel_sigma(job->noise, (float)from->point.z) * facing;
 }
 
 /* One step of Gauss and Newton. A direction that hardly any point determines goes back to rest. */
@@ -224,7 +222,7 @@ static bool rests(const ego_rest *found)
 static bool has_moved(const ego_job *job, rlf_pose *pose)
 {
     ego_part parts[PARTS] = {0};
-    for (int32_t pass = 0; pass < PASSES; pass++) {
+    for (size_t pass = 0; pass < sizeof(gates_m) / sizeof(gates_m[0]); pass++) {
         improve(job, gates_m[pass], pose);
     }
     ask(job, pose, parts);
@@ -287,10 +285,10 @@ void rlf_ego_motion_watch(rlf_reconstruct *stage, const float *depth)
 static void keep(rlf_ego_view *view, const image_grid *grid, const rlf_slot *slot)
 {
     int32_t seen = 0, step = 1;
-    for (int32_t i = 0; i < grid->count; i += COUNTED) {
+    for (int32_t i = 0; i < grid->count; i++) {
         seen += slot->reason[i] == RLF_REASON_OK;
     }
-    while ((double)COUNTED * seen > (double)RLF_EGO_POINTS * step * step) {
+    while (seen > RLF_EGO_POINTS * step * step) {
         step++;
     }
     view->count = 0;

@@ -101,7 +101,7 @@ static inline rlf_vec3 rlf_flow_normal(const rlf_slot *slot, ptrdiff_t i)
  * same normal makes the same of it. */
 static inline ptrdiff_t rlf_flow_pixel(const image_grid *grid, ptrdiff_t i, rlf_vec3 p)
 {
-    if (!(p.z > 0.05)) {
+    if (!(p.z > 0.0)) {
         return -1;
     }
     const double u = i % grid->width + (p.x / p.z - grid->ray_x[i]) * grid->camera.fx;

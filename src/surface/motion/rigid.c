@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-enum { STRIDE = 2, PASSES = 4, LEAST_REGION_SAMPLES = 30, MOST_SAMPLES = 400 };
+enum { STRIDE = 2, LEAST_REGION_SAMPLES = 30, MOST_SAMPLES = 400 };
 
 static const double longest_gap_s = 0.2;
 /* Share of a motion by which the normal's error makes it another. */
@@ -69,7 +69,7 @@ static void add_pixel(twist_look *look, rlf_twist *t, double speed, ptrdiff_t i)
     }
     /* What the sensor's noise makes of a speed, and the normal's error of the motion. */
     const double noise =
-        1.41421356 * rlf_kernel_sigma(job->noise, job->now->depth[i]) / job->dt * facing;
+        sqrt(2.0) * rlf_kernel_sigma(job->noise, job->now->depth[i]) / job->dt * facing;
     const double bound = look->slack + 3.0 * noise + normal_error * speed;
     if (off <= bound && off >= -bound) {
         const rlf_vec3 turn = rlf_cross(rlf_sub(p, t->centre), n);
@@ -126,9 +126,9 @@ static rlf_twist start_from(const rlf_region *region, rlf_vec3 velocity)
 
 static rlf_twist fit_from(const rlf_flow *job, const rlf_region *region, rlf_vec3 velocity)
 {
-    static const double slack[PASSES] = {1.0, 0.3, 0.1, 0.0};
+    static const double slack[] = {1.0, 0.3, 0.1, 0.0};
     rlf_twist t = start_from(region, velocity);
-    for (int pass = 0; pass < PASSES; pass++) {
+    for (size_t pass = 0; pass < sizeof(slack) / sizeof(slack[0]); pass++) {
         twist_look look = {.job = job, .region = region, .slack = slack[pass]};
         look_at(&look, &t);
         step(&look, &t);
