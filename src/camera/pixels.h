@@ -4,6 +4,17 @@
 
 #include "relief/camera.h"
 
+#include <string.h>
+
+/* The same camera without its distortion. */
+static inline rlf_camera camera_pinhole(const rlf_camera *camera)
+{
+    rlf_camera pinhole = *camera;
+    pinhole.distortion_model = RLF_DISTORTION_NONE;
+    memset(pinhole.distortion, 0, sizeof(pinhole.distortion));
+    return pinhole;
+}
+
 /* The ray of each pixel at z = 1, two planes; 0, 0 where the lens has none. */
 void camera_fill_rays(const rlf_camera *camera, float *ray_x, float *ray_y);
 

@@ -90,12 +90,11 @@ static void choose_carved(fuse_job *job)
 {
     rlf_map *map = job->map;
     const map_volume *v = &map->volume;
-    const int32_t budget =
-        map->def.blocks_per_frame > 0 ? map->def.blocks_per_frame / 4 + 1 : v->capacity;
     const bool has_time = map->def.blocks_per_frame == 0;
+    const int32_t budget = has_time ? v->capacity : map->def.blocks_per_frame / 4 + 1;
     const int32_t share = has_time ? v->high : v->high / CARVE_FRAMES + 1;
     int32_t cursor = !has_time && map->carve_cursor < v->high ? map->carve_cursor : 0;
-    int32_t end = cursor + share < v->high ? cursor + share : v->high;
+    const int32_t end = cursor + share < v->high ? cursor + share : v->high;
     const int32_t most = map->chosen_count + budget;
     for (; cursor < end && map->chosen_count < most; cursor++) {
         if ((v->flags[cursor] & MAP_LIVE) && v->marked[cursor] != map->tick &&

@@ -108,9 +108,7 @@ rlf_result rlf_map_create(const rlf_map_def *def, rlf_map **out)
         return RLF_ERROR_MEMORY;
     }
     map->def = *def;
-    map->pinhole = def->rig.depth;
-    map->pinhole.distortion_model = RLF_DISTORTION_NONE;
-    memset(map->pinhole.distortion, 0, sizeof(map->pinhole.distortion));
+    map->pinhole = camera_pinhole(&def->rig.depth);
     if (!arena_create(&map->arena, take_all, map)) {
         rlf_free(map);
         return RLF_ERROR_MEMORY;

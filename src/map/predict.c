@@ -2,6 +2,8 @@
  * of a block that is drawn there. */
 #include "map/predict.h"
 
+#include "camera/pixels.h"
+
 #include <string.h>
 
 #define GRAIN 8 /* rows */
@@ -322,9 +324,8 @@ rlf_result rlf_map_predict(rlf_map *map, const rlf_camera *camera, const rlf_pos
         return rlf_fail(RLF_ERROR_INVALID, "rlf_map_predict: the pose is not finite or its "
                                            "quaternion is not of unit length");
     }
-    map_caster c = {.map = map, .camera = *camera, .eye = T_world_camera->p, .out = &map->out};
-    c.camera.distortion_model = RLF_DISTORTION_NONE;
-    memset(c.camera.distortion, 0, sizeof(c.camera.distortion));
+    map_caster c = {.map = map, .eye = T_world_camera->p, .out = &map->out};
+    c.camera = camera_pinhole(camera);
     c.R_world_camera = rlf_quat_to_mat3(rlf_quat_normalize(T_world_camera->q));
     c.R_camera_world = rlf_mat3_transpose(&c.R_world_camera);
     prepare_rays(&c);

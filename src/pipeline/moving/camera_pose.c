@@ -22,9 +22,7 @@ rlf_result camera_pose_open(camera_pose *c, const rlf_rig *rig, rlf_pool *pool)
     rlf_tracker_def def = rlf_tracker_def_default();
     def.rig = *rig;
     def.pool = pool;
-    rlf_camera camera = rig->depth;
-    camera.distortion_model = RLF_DISTORTION_NONE;
-    memset(camera.distortion, 0, sizeof(camera.distortion));
+    const rlf_camera camera = camera_pinhole(&rig->depth);
     c->camera = rlf_camera_decimate(&camera, SMALLER);
     c->camera.cx -= 0.5 * (SMALLER - 1) / SMALLER;
     c->camera.cy -= 0.5 * (SMALLER - 1) / SMALLER;
