@@ -87,7 +87,7 @@ void rlf_kernel_flow_residuals(const rlf_kernel_flow_view *view,
                                int32_t first, int32_t count, float *restrict out,
                                int32_t *restrict is_seen);
 
-/* ---- flow_row.c: velocity of pixels, see surface/motion/write.c
+/* ---- flow_row.c: velocity of pixels, see surface/motion/cells.c
  * --------------------------------------------------- */
 
 /* A rigid motion: m/s at the centre (metres), radians per second. */

@@ -1,4 +1,5 @@
-/* fuse_block.c, fuse_view.c: a view of the room into blocks of a signed distance volume. */
+/* fuse_block.c, fuse_view.c: a view of the room into blocks of a signed distance volume.
+ * splat_block.c: out of them again. */
 #ifndef RLF_KERNEL_FUSE_H
 #define RLF_KERNEL_FUSE_H
 
@@ -73,6 +74,25 @@ typedef struct rlf_fuse_summary {
 bool rlf_kernel_fuse_block(const rlf_fuse_view *view, const rlf_fuse_place *place,
                            rlf_fuse_block *restrict block);
 rlf_fuse_summary rlf_kernel_fuse_summary(const rlf_fuse_block *block);
+
+/* ---- splat_block.c */
+
+/* Focal lengths and principal point, pixels. */
+typedef struct rlf_splat_camera {
+    float fx, fy, cx, cy;
+} rlf_splat_camera;
+
+/* Where voxels are seen; z 0 = behind the camera. */
+typedef struct rlf_splat_points {
+    float u[RLF_FUSE_VOXELS], v[RLF_FUSE_VOXELS], z[RLF_FUSE_VOXELS];
+    int32_t voxel[RLF_FUSE_VOXELS];
+} rlf_splat_points;
+
+/* Voxels in front of the surface, by less than one voxel; returns how many. */
+int32_t rlf_kernel_splat_block(const rlf_fuse_block *restrict block,
+                               const rlf_fuse_place *restrict place,
+                               const rlf_splat_camera *restrict camera,
+                               rlf_splat_points *restrict out);
 
 /* ---- fuse_view.c */
 

@@ -1,6 +1,6 @@
-/* What a camera sees of the room: for each pixel the zero along its ray, found from the part
- * of a block that is drawn there. */
-#include "map/predict.h"
+/* What a camera sees of the room: for each pixel the zero along its ray, found from the voxel
+ * that is drawn there. */
+#include "map/volume.h"
 
 #include "camera/pixels.h"
 

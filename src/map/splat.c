@@ -1,7 +1,7 @@
-/* The first step of a prediction: eighths of blocks drawn as squares (compare Prisacariu et al.
- * 2014, InfiniTAM, who draw the blocks' boxes): each pixel's ray then begins within two voxels of
- * its surface. */
-#include "map/predict.h"
+/* The first step of a prediction: voxels drawn as points (compare Prisacariu et al. 2014,
+ * InfiniTAM, who draw the blocks' boxes): each pixel's ray then begins within two voxels of its
+ * surface. */
+#include "map/volume.h"
 
 #include <string.h>
 
@@ -59,6 +59,32 @@ static void draw_point(map_caster *caster, const splat *p)
     }
 }
 
+/* All voxels in front of the surface, as large as they are: near surfaces have no holes then. */
+static void draw_voxels(map_caster *caster, int32_t block, const float corner[3], float voxel_f)
+{
+    const rlf_camera *c = &caster->camera;
+    const rlf_splat_camera camera = {(float)c->fx, (float)c->fy, (float)c->cx, (float)c->cy};
+    rlf_fuse_place place = {.origin = {corner[0], corner[1], corner[2]}};
+    memcpy(place.step, caster->step, sizeof(place.step));
+    rlf_splat_points points;
+    const map_block *b = map_block_at(&caster->map->volume, block);
+    const int32_t count = rlf_kernel_splat_block(b, &place, &camera, &points);
+    for (int32_t i = 0; i < count; i++) {
+        const float z = points.z[i];
+        if (z > 0.0f) {
+            const float inverse = 1.0f / z;
+            const splat p = {.u = points.u[i],
+                             .v = points.v[i],
+                             .size = DIAGONAL * voxel_f * inverse,
+                             .inverse = inverse,
+                             .least = inverse,
+                             .most = inverse,
+                             .block = block};
+            draw_point(caster, &p);
+        }
+    }
+}
+
 /* The plane of a patch whose voxel is at q: one over depth at the square's middle, and its slopes.
  * False on faces that look away. */
 static bool lay_plane(const map_caster *caster, const rlf_fuse_patch *patch, const float q[3],
@@ -89,10 +115,9 @@ static bool lay_plane(const map_caster *caster, const rlf_fuse_patch *patch, con
 
 /* One square for each eighth of the block, about its middle, wide enough from any side, on the
  * plane of its surface. */
-static void draw_block(map_caster *caster, int32_t block, const float corner[3])
+static void draw_eighths(map_caster *caster, int32_t block, const float corner[3], float voxel_f)
 {
     const rlf_camera *c = &caster->camera;
-    const float voxel_f = (float)(caster->map->def.voxel_m * rlf_max(c->fx, c->fy));
     const rlf_fuse_patch *front = caster->map->volume.front[block];
     const float reach = 2.0f * DIAGONAL / caster->per_metre; /* half of the eighth's diagonal */
     for (int32_t k = 0; k < 8; k++) {
@@ -118,6 +143,18 @@ static void draw_block(map_caster *caster, int32_t block, const float corner[3])
         if (lay_plane(caster, &front[k], q, &p)) {
             draw_point(caster, &p);
         }
+    }
+}
+
+/* Where a voxel is less than half a pixel, four of them are less than two. */
+static void draw_block(map_caster *caster, int32_t block, const float corner[3])
+{
+    const rlf_camera *c = &caster->camera;
+    const float voxel_f = (float)(caster->map->def.voxel_m * rlf_max(c->fx, c->fy));
+    if (voxel_f < 0.5f * corner[2]) {
+        draw_eighths(caster, block, corner, voxel_f);
+    } else {
+        draw_voxels(caster, block, corner, voxel_f);
     }
 }
 

@@ -43,12 +43,6 @@ struct rlf_tracker {
     int32_t pose_count; /* 0, 1 or 2 of them are known */
 };
 
-/* ---- points.c */
-/* Fills row `row` of the points from rows 4 row + 1 and 4 row + 2 of the view; ray_x, ray_y are the
- * depth camera's tables. */
-void track_points_row(const track_points *points, const rlf_rig *rig, const float *ray_x,
-                      const float *ray_y, const rlf_track_view *view, int32_t row);
-
 /* ---- normal_equations.c */
 /* Residuals over their expected deviation are counted in bins of 1 / TRACK_BINS_PER_SIGMA. */
 #define TRACK_BINS 128

@@ -19,9 +19,32 @@ enum {
     SEARCH = 4 /* steps to each side */
 };
 
+static const float fastest = 5.0f;  /* m/s */
 static const float reach_m = 0.01f; /* beyond the noise: from here on a residual is all wrong */
 /* Squared sum of 3 normal variables that chance exceeds once in 400 times. */
 static const float significant_3 = 14.2f;
+
+/* A square of the image in one region. */
+typedef struct rlf_cell {
+    rlf_velocity velocity;
+    float depth; /* of the limb that it holds, metres; 0 = none of the region */
+    int32_t state;
+} rlf_cell;
+
+/* What is known of a cell: nothing of the region, nothing that fits, it rests, it moves with the
+ * region, it moves by itself. */
+enum { RLF_CELL_EMPTY = 0, RLF_CELL_UNKNOWN, RLF_CELL_STILL, RLF_CELL_WHOLE, RLF_CELL_MOVES };
+
+/* The cells of one region. */
+typedef struct rlf_cell_grid {
+    const rlf_flow *job;
+    const rlf_region *region;
+    const rlf_twist *twist;
+    bool moves; /* the twist is not 0 */
+    rlf_cell *cells;
+    int32_t size, columns, rows;
+    int32_t number; /* of the region, in the runs */
+} rlf_cell_grid;
 
 /* The pixels of a cell that show its limb. */
 typedef struct samples {
@@ -358,6 +381,81 @@ static void fit_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     }
 }
 
+/* ---- pixels: the mean of the cells around, weighted by nearness, of those with the same limb ----
+ */
+
+static rlf_kernel_flow_cell cell_at(const rlf_cell_grid *g, int32_t row, int32_t column)
+{
+    if (row < 0 || column < 0 || row >= g->rows || column >= g->columns) {
+        return (rlf_kernel_flow_cell){.is_known = false};
+    }
+    const rlf_cell *cell = &g->cells[row * g->columns + column];
+    return (rlf_kernel_flow_cell){{cell->velocity.v[0], cell->velocity.v[1], cell->velocity.v[2]},
+                                  cell->depth,
+                                  cell->state >= RLF_CELL_WHOLE,
+                                  cell->state != RLF_CELL_MOVES};
+}
+
+/* Half a cell at a time, what is not of a cell that rests. */
+static void write_run(const rlf_cell_grid *g, rlf_kernel_flow *flow, int32_t y, const rlf_run *run)
+{
+    const image_grid *grid = &g->job->stage->grid;
+    rlf_slot *now = g->job->now;
+    const int32_t size = g->size, half = size / 2, down = y - g->region->y0;
+    const int32_t row = down / size, above = row - (down % size < half ? 1 : 0);
+    flow->down = ((float)down + 0.5f) * flow->inverse - 0.5f - (float)above;
+    for (int32_t x = run->x0, next; x < run->x1; x = next) {
+        const int32_t right = x - g->region->x0, column = right / size;
+        const bool is_first = right % size < half;
+        next = rlf_least(run->x1, g->region->x0 + column * size + (is_first ? half : size));
+        if (g->cells[row * g->columns + column].state == RLF_CELL_STILL) {
+            continue;
+        }
+        const int32_t before = column - (is_first ? 1 : 0);
+        flow->column = (float)before;
+        for (int k = 0; k < 4; k++) {
+            flow->cell[k] = cell_at(g, above + k / 2, before + k % 2);
+        }
+        const ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+        float *const out[3] = {now->velocity[0] + i, now->velocity[1] + i, now->velocity[2] + i};
+        flow->first = right;
+        rlf_kernel_flow_row(flow, now->depth + i, grid->ray_x + i, grid->ray_y + i, next - x, out);
+    }
+}
+
+static rlf_kernel_flow flow_of(const rlf_cell_grid *g)
+{
+    rlf_vec3 c = g->twist->centre, s = rlf_twist_spin(g->twist);
+    const double *x = g->twist->x;
+    return (rlf_kernel_flow){.twist = {{c.x, c.y, c.z}, {x[0], x[1], x[2]}, {s.x, s.y, s.z}},
+                             .moves = g->moves,
+                             .inverse = 1.0f / (float)g->size,
+                             .limb = 2.0f * rlf_flow_limb_m,
+                             .fastest = fastest};
+}
+
+static void write_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const rlf_cell_grid *g = context;
+    const rlf_runs *runs = &g->job->stage->work.runs;
+    rlf_kernel_flow flow = flow_of(g);
+    for (int32_t y = g->region->y0 + begin; y < g->region->y0 + end; y++) {
+        for (int32_t r = runs->first[y]; r < runs->first[y + 1]; r++) {
+            if (runs->run[r].component == g->number) {
+                write_run(g, &flow, y, &runs->run[r]);
+            }
+        }
+    }
+}
+
+static void write_cells(rlf_cell_grid *g)
+{
+    const rlf_region *region = g->region;
+    rlf_parallel_for(g->job->stage->def.pool, region->y1 - region->y0, RLF_ROW_GRAIN, write_rows,
+                     g);
+}
+
 void rlf_velocity_cells(const rlf_flow *job, const rlf_region *region, const rlf_twist *twist,
                         bool moves)
 {
@@ -375,7 +473,7 @@ void rlf_velocity_cells(const rlf_flow *job, const rlf_region *region, const rlf
     g.rows = (region->y1 - region->y0 + g.size - 1) / g.size;
     rlf_parallel_for(job->stage->def.pool, g.rows, 1, fit_rows, &g);
     relax(&g);
-    rlf_cells_write(&g);
+    write_cells(&g);
 }
 
 void velocity_allocate(velocity_planes *state, rlf_arena *arena, const image_grid *grid)

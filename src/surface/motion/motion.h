@@ -47,34 +47,9 @@ static inline rlf_velocity rlf_velocity_make(double x, double y, double z)
     return (rlf_velocity){{(float)x, (float)y, (float)z}};
 }
 
-/* A square of the image in one region: see motion/cells.c. */
-typedef struct rlf_cell {
-    rlf_velocity velocity;
-    float depth; /* of the limb that it holds, metres; 0 = none of the region */
-    int32_t state;
-} rlf_cell;
-
-/* What is known of a cell: nothing of the region, nothing that fits, it rests, it moves with the
- * region, it moves by itself. */
-enum { RLF_CELL_EMPTY = 0, RLF_CELL_UNKNOWN, RLF_CELL_STILL, RLF_CELL_WHOLE, RLF_CELL_MOVES };
-
-/* The cells of one region. */
-typedef struct rlf_cell_grid {
-    const rlf_flow *job;
-    const rlf_region *region;
-    const rlf_twist *twist;
-    bool moves; /* the twist is not 0 */
-    rlf_cell *cells;
-    int32_t size, columns, rows;
-    int32_t number; /* of the region, in the runs */
-} rlf_cell_grid;
-
 /* Velocity of a region's pixels; `twist` is its motion as a whole, 0 unless it `moves`. */
 void rlf_velocity_cells(const rlf_flow *job, const rlf_region *region, const rlf_twist *twist,
                         bool moves);
-
-/* motion/write.c: writes the velocity of the region's pixels. */
-void rlf_cells_write(rlf_cell_grid *g);
 
 /* Half of a limb's breadth: within a window, what is farther off is another limb; a limb that is so
  * far beside where it was still fits it. */
