@@ -207,16 +207,6 @@ static void put(const map_caster *c, int32_t i, const hit *h)
     }
 }
 
-/* The block that is drawn at a pixel is likely the one to look at. */
-static void begin_at(ray *r, int32_t block)
-{
-    const int16_t *at = r->v->place[block];
-    r->block = block;
-    for (int32_t k = 0; k < 3; k++) {
-        r->block_at[k] = at[k];
-    }
-}
-
 #define AHEAD 6 /* pixels that memory has to answer in */
 
 /* Brings near what a pixel of the row will read first. */
@@ -258,7 +248,10 @@ static void cast_pixel(const map_caster *c, int32_t x, int32_t y, ray *r)
     if (inverse > 0.0f) {
         const float start = 1.0f / inverse;
         const float far_z = c->out->tile_far[(y / MAP_TILE) * c->tile_columns + x / MAP_TILE];
-        begin_at(r, c->out->start[i]);
+        r->block = c->out->start[i]; /* what is drawn there is likely the one to look at */
+        for (int32_t k = 0; k < 3; k++) {
+            r->block_at[k] = r->v->place[r->block][k];
+        }
         ray_make(c, x, y, r);
         if (!refine(r, start, &h) && !cast(r, start - 1.5f / r->length, far_z, &h)) {
             h = none;
@@ -267,40 +260,17 @@ static void cast_pixel(const map_caster *c, int32_t x, int32_t y, ray *r)
     put(c, i, &h);
 }
 
-static void ray_begin(const map_caster *c, ray *r)
-{
-    memset(r, 0, sizeof(*r));
-    r->v = &c->map->volume;
-    r->block_at[0] = INT32_MAX;
-    r->block = -1;
-}
-
 static void cast_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     const map_caster *c = context;
-    ray r;
+    ray r = {.v = &c->map->volume, .block_at = {INT32_MAX}, .block = -1};
     (void)worker;
-    ray_begin(c, &r);
     for (int32_t y = begin; y < end; y++) {
         for (int32_t x = 0; x < c->camera.width; x++) {
             look_ahead(c, x + AHEAD, y, &r);
             cast_pixel(c, x, y, &r);
         }
     }
-}
-
-static void finish(rlf_map *map, const rlf_camera *camera, const rlf_pose *T)
-{
-    map_view_planes *out = &map->out;
-    out->last = (rlf_prediction){
-        .camera = *camera,
-        .T_world_camera = *T,
-        .depth = out->depth,
-        .normal_x = out->normal[0],
-        .normal_y = out->normal[1],
-        .normal_z = out->normal[2],
-        .grey = out->grey,
-    };
 }
 
 rlf_result rlf_map_predict(rlf_map *map, const rlf_camera *camera, const rlf_pose *T_world_camera,
@@ -331,8 +301,15 @@ rlf_result rlf_map_predict(rlf_map *map, const rlf_camera *camera, const rlf_pos
     prepare_rays(&c);
     map_splat(&c);
     rlf_parallel_for(map->def.pool, camera->height, GRAIN, cast_rows, &c);
-    finish(map, &c.camera, T_world_camera);
-    *out = map->out.last;
+    *out = map->out.last = (rlf_prediction){
+        .camera = c.camera,
+        .T_world_camera = *T_world_camera,
+        .depth = map->out.depth,
+        .normal_x = map->out.normal[0],
+        .normal_y = map->out.normal[1],
+        .normal_z = map->out.normal[2],
+        .grey = map->out.grey,
+    };
     return RLF_OK;
 }
 

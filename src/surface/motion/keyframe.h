@@ -134,8 +134,9 @@ void keyframes_follow(rlf_reconstruct *stage, const rlf_slot *slot, bool is_gap)
 /* The region's motion by its keyframe; NULL: it has none. */
 const rlf_keyframe *keyframe_of_region(const rlf_reconstruct *stage, int32_t label);
 
-/* ---- rim.c: how much of a small window a thing fills that ends in it before something farther;
- * from that its outline is known to a part of a pixel. What continues the thing's plane is of it.
+/* ---- keyframe.c: how much of a small window a thing fills that ends in it before something
+ * farther; from that its outline is known to a part of a pixel. What continues the thing's plane is
+ * of it.
  */
 enum { RIM_RADIUS = 3, RIM_SIDE = 2 * RIM_RADIUS + 1 }; /* of a window, pixels */
 
