@@ -40,13 +40,8 @@ typedef struct rlf_map_def {
     double voxel_m;    /* edge of a voxel, 0.002..0.05 metres; default 0.006 */
     int32_t memory_mb; /* most memory of blocks, 8..16384 MiB; default 288. When it is full, the
                           blocks farthest from the camera leave first */
-    double truncation_sigmas; /* distances are true up to this many sigma(z) of a surface, and to 4
-                                 voxels at least, 8 at most; default 4 */
     int32_t blocks_per_frame; /* most blocks that one frame is fused into; the others have their
                                  turn in the next ones. 0 = all. Default 768 */
-    int32_t carve_after;      /* frames that must see through a voxel before what was there is gone,
-                                 1..16; default 4 */
-    bool keep_color;          /* default true; false: no grey or colour, the same geometry */
     rlf_pool *pool;           /* borrowed; NULL = one thread */
 } rlf_map_def;
 
@@ -136,8 +131,8 @@ RLF_API double rlf_map_truncation(const rlf_map *map);
 RLF_API rlf_result rlf_map_predict(rlf_map *map, const rlf_camera *camera,
                                    const rlf_pose *T_world_camera, rlf_prediction *out);
 
-/* The colours (R, G, B, A) of the last prediction, 4 bytes a pixel, of its size; NULL when the map
- * keeps none. For pictures; costs about as much as the prediction. */
+/* The colours (R, G, B, A) of the last prediction, 4 bytes a pixel, of its size; NULL when
+ * there was none. For pictures; costs about as much as the prediction. */
 RLF_API const uint8_t *rlf_map_predict_color(rlf_map *map);
 
 /* Where a map stands. */
@@ -164,7 +159,7 @@ RLF_API const rlf_pose *rlf_map_get_viewpoints(const rlf_map *map, int32_t *out_
 typedef struct rlf_map_mesh {
     float *position;                     /* 3 a vertex */
     float *normal;                       /* 3 a vertex, unit, out of the surface */
-    uint8_t *rgba;                       /* 4 a vertex; NULL when the map keeps no colour */
+    uint8_t *rgba;                       /* 4 a vertex; A = 0: nobody showed one */
     uint32_t *index;                     /* 3 a triangle */
     size_t vertex_count, triangle_count; /* 3 indices a triangle */
 } rlf_map_mesh;

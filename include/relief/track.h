@@ -39,16 +39,9 @@ RLF_API const char *rlf_track_health_name(rlf_track_health health);
 
 /* Settings of a tracker. */
 typedef struct rlf_tracker_def {
-    uint32_t cookie;         /* from rlf_tracker_def_default */
-    rlf_rig rig;             /* of the frames to come; must be set */
-    double gate_m;           /* points farther from the prediction than this do not count at first;
-                                it bounds the motion between two frames; default 0.1 */
-    double least_overlap;    /* share of the frame's points that must lie on the prediction, 0..1;
-                                default 0.3 */
-    double least_constraint; /* least share of the points' information that a direction must have;
-                                below it the direction is weak; default 0.001 */
-    int32_t keyframe_max;    /* views that are remembered for rlf_tracker_recall; default 256 */
-    rlf_pool *pool;          /* borrowed; NULL = one thread */
+    uint32_t cookie; /* from rlf_tracker_def_default */
+    rlf_rig rig;     /* of the frames to come; must be set */
+    rlf_pool *pool;  /* borrowed; NULL = one thread */
 } rlf_tracker_def;
 
 /* Memory for one camera. Made by rlf_tracker_create, gone by rlf_tracker_destroy. */

@@ -1,4 +1,5 @@
 /* The lens model: projection, unprojection by Newton iteration, and cameras of derived images. */
+#include "camera/pixels.h"
 #include "relief/camera.h"
 
 /* Distorted coordinates of an undistorted ray (x, y), and their Jacobian. */
@@ -191,4 +192,15 @@ rlf_mat4 rlf_projection_from_fov(double fov_y, double aspect, double near_z, dou
                    {0, 0, -(far_z + near_z) / depth, -2.0 * far_z * near_z / depth},
                    {0, 0, -1, 0}}};
     return r;
+}
+
+void camera_fill_rays(const rlf_camera *camera, float *ray_x, float *ray_y)
+{
+    for (int32_t i = 0; i < camera->width * camera->height; i++) {
+        rlf_vec3 ray;
+        const bool has_ray =
+            rlf_camera_unproject(camera, i % camera->width, i / camera->width, &ray);
+        ray_x[i] = has_ray ? (float)ray.x : 0.0f;
+        ray_y[i] = has_ray ? (float)ray.y : 0.0f;
+    }
 }

@@ -37,7 +37,7 @@ void rlf_kernel_flow_residuals(const rlf_kernel_flow_view *view,
                                int32_t first, int32_t count, float *restrict out,
                                int32_t *restrict is_seen);
 
-/* ---- flow_row.c: velocity of pixels, see surface/motion/write.c
+/* ---- flow_row.c: velocity of pixels, see surface/motion/cells.c
  * --------------------------------------------------- */
 
 /* A rigid motion: m/s at the centre (metres), radians per second. */
@@ -66,24 +66,5 @@ typedef struct rlf_kernel_flow {
 void rlf_kernel_flow_row(const rlf_kernel_flow *restrict flow, const float *restrict depth,
                          const float *restrict ray_x, const float *restrict ray_y, int32_t count,
                          float *const velocity[3]);
-
-/* ---- rest_count.c: regions that rest, see surface/motion/rigid.c
- * --------------------------------------------------- */
-
-/* Planes of an image; a rectangle of it, every stride-th pixel of every stride-th row. */
-typedef struct rlf_kernel_rest_in {
-    const int32_t *label;
-    const uint8_t *reason;
-    const float *depth, *normal[3], *ray_x, *ray_y;
-    const float *before; /* depth where something was seen a frame ago, 0 elsewhere */
-    int32_t width;       /* of the image */
-    int32_t x0, y0, x1, y1, stride;
-    int32_t own; /* the region's label */
-    rlf_kernel_noise noise;
-    float reach; /* metres: what is farther from where it was is another limb */
-} rlf_kernel_rest_in;
-
-/* Pixels of the region that were seen, and those of them that are where they were, by the noise. */
-void rlf_kernel_rest_count(const rlf_kernel_rest_in *in, int32_t *samples, int32_t *inliers);
 
 #endif

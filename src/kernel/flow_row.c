@@ -1,4 +1,4 @@
-/* Velocity of pixels from that of the cells around: see surface/motion/write.c. */
+/* Velocity of pixels from that of the cells around: see surface/motion/cells.c. */
 #include "kernel/flow.h"
 
 #include <math.h>

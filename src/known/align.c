@@ -6,6 +6,8 @@
 
 /* Points whose spread across a line is less than this share of that along it are on the line. */
 #define LINE_SHARE 0.03
+/* Of what the sums know of an unknown no more than this share is left by the others: it is open. */
+#define NOTHING_OWN 1e-12
 
 static rlf_vec3 centre_of(const rlf_vec3 *points, int32_t count)
 {
@@ -117,4 +119,19 @@ rlf_result rlf_align_points(const rlf_vec3 *model, const rlf_vec3 *world, int32_
         *out_rms = sqrt(sum / count);
     }
     return RLF_OK;
+}
+
+bool known_step(const math_rigid_sums *n, rlf_pose *T)
+{
+    double x[6];
+    if (!math_rigid_solve(n, NOTHING_OWN, x)) {
+        return false;
+    }
+    const rlf_vec3 shift = {x[0], x[1], x[2]}, turn = {x[3], x[4], x[5]};
+    if (!rlf_vec3_is_finite(turn) || !rlf_vec3_is_finite(shift) || rlf_length(turn) > 3.0) {
+        return false;
+    }
+    T->q = rlf_quat_normalize(rlf_quat_mul(rlf_quat_from_rotation_vector(turn), T->q));
+    T->p = rlf_add(T->p, shift);
+    return true;
 }

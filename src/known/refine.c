@@ -48,8 +48,8 @@ static void bound(const search *s, const rlf_pose *T_world_model, int32_t out[4]
 
 /* What the points within `gate` of the model say. */
 typedef struct findings {
-    known_normal sums;
-    double weight, square_sum;
+    math_rigid_sums sums;
+    double square_sum;
     int32_t count;
 } findings;
 
@@ -73,9 +73,7 @@ static void add_point(const search *s, const rlf_pose *T, int32_t i, double gate
     double weight = (1.0 - share * share) * (1.0 - share * share); /* Tukey's biweight */
     /* The model moves, the point stays: d shrinks by gradient . (turn x arm + shift). */
     rlf_vec3 turn = rlf_cross(rlf_sub(p, T->p), gradient);
-    const double jacobian[6] = {-turn.x, -turn.y, -turn.z, -gradient.x, -gradient.y, -gradient.z};
-    known_normal_add(&f->sums, jacobian, d, weight);
-    f->weight += weight;
+    math_rigid_add(&f->sums, rlf_scale(gradient, -1.0), rlf_scale(turn, -1.0), -d, weight);
     f->square_sum += d * d;
     f->count++;
 }
@@ -97,13 +95,12 @@ static findings look(const search *s, const rlf_pose *T, double gate)
 }
 
 /* Pulls the pose back to where it started, as firmly as the prior says. */
-static void add_prior(known_normal *n, const known_normal *prior, const rlf_pose *from,
+static void add_prior(math_rigid_sums *n, const math_rigid_sums *prior, const rlf_pose *from,
                       const rlf_pose *T)
 {
-    rlf_quat turned = rlf_quat_mul(T->q, rlf_quat_conjugate(from->q));
-    double sign = turned.w < 0.0 ? -2.0 : 2.0;
-    rlf_vec3 p = rlf_sub(T->p, from->p);
-    const double d[6] = {sign * turned.x, sign * turned.y, sign * turned.z, p.x, p.y, p.z};
+    const rlf_vec3 turn = math_rotation_vector(rlf_quat_mul(T->q, rlf_quat_conjugate(from->q)));
+    const rlf_vec3 p = rlf_sub(T->p, from->p);
+    const double d[6] = {p.x, p.y, p.z, turn.x, turn.y, turn.z};
     for (int32_t i = 0; i < 6; i++) {
         for (int32_t k = 0; k < 6; k++) {
             double a = i >= k ? prior->a[i][k] : prior->a[k][i];
@@ -113,7 +110,7 @@ static void add_prior(known_normal *n, const known_normal *prior, const rlf_pose
     }
 }
 
-static void scale(known_normal *n, double by)
+static void scale(math_rigid_sums *n, double by)
 {
     for (int32_t i = 0; i < 6; i++) {
         for (int32_t k = 0; k < 6; k++) {
@@ -125,7 +122,8 @@ static void scale(known_normal *n, double by)
 
 /* Rounds from the fit's pose, with points up to `gate` away at first; false when few are so near or
  * they leave the pose open. */
-static bool run_rounds(const search *s, const known_normal *prior, double gate, rlf_known_fit *fit)
+static bool run_rounds(const search *s, const math_rigid_sums *prior, double gate,
+                       rlf_known_fit *fit)
 {
     rlf_pose T = fit->T_world_model;
     for (int32_t i = 0; i < ROUNDS; i++) {
@@ -133,10 +131,10 @@ static bool run_rounds(const search *s, const known_normal *prior, double gate, 
         if (f.count < POINTS_MIN) {
             return false;
         }
-        double worth = rlf_min(f.weight, WORTH_POINTS) / f.weight;
+        double worth = rlf_min(f.sums.weight, WORTH_POINTS) / f.sums.weight;
         scale(&f.sums, worth / (WORTH_SIGMA_M * WORTH_SIGMA_M));
         add_prior(&f.sums, prior, &fit->T_world_model, &T);
-        if (!known_normal_apply(&f.sums, &T)) {
+        if (!known_step(&f.sums, &T)) {
             return false;
         }
         gate = rlf_max(GATE_LAST_M, 0.8 * gate);
@@ -148,7 +146,7 @@ static bool run_rounds(const search *s, const known_normal *prior, double gate, 
     return true;
 }
 
-void known_refine(const rlf_shape *shape, const rlf_known_view *view, const known_normal *prior,
+void known_refine(const rlf_shape *shape, const rlf_known_view *view, const math_rigid_sums *prior,
                   rlf_known_fit *fit)
 {
     const search s = {shape, view->surface, view->T_world_camera};
@@ -167,9 +165,9 @@ void rlf_known_refine(const rlf_shape *shape, const rlf_known_view *view, rlf_kn
     if (!RLF_ASSERT(shape != NULL && view != NULL && view->surface != NULL && fit != NULL)) {
         return;
     }
-    known_normal prior = {{{0}}, {0}};
+    math_rigid_sums prior = {.weight = 0.0};
     for (int32_t i = 0; i < 6; i++) {
-        double sigma = i < 3 ? START_SIGMA_RAD : START_SIGMA_M;
+        double sigma = i < 3 ? START_SIGMA_M : START_SIGMA_RAD;
         prior.a[i][i] = 1.0 / (sigma * sigma);
     }
     fit->surface_count = 0;

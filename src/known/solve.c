@@ -34,13 +34,10 @@ rlf_known_def rlf_known_def_default(void)
     return def;
 }
 
-/* d(R m + t) for a small turn about the pose's origin: turn x arm + shift. Adds the residual
- * row . (p - ...) with the row's derivative. */
-static void add_row(known_normal *n, rlf_vec3 row, rlf_vec3 arm, double residual, double sigma)
+/* Adds the residual row . (p - ...), of a point at `arm` from the pose's origin. */
+static void add_row(math_rigid_sums *n, rlf_vec3 row, rlf_vec3 arm, double residual, double sigma)
 {
-    rlf_vec3 turn = rlf_cross(arm, row);
-    const double jacobian[6] = {turn.x, turn.y, turn.z, row.x, row.y, row.z};
-    known_normal_add(n, jacobian, residual, 1.0 / (sigma * sigma));
+    math_rigid_add(n, row, rlf_cross(arm, row), -residual, 1.0 / (sigma * sigma));
 }
 
 static double absolute(double x)
@@ -55,10 +52,10 @@ static double depth_sigma(const known_sight *sight, const known_pick *pick)
 }
 
 /* Sums of all picks at a pose. */
-static known_normal look(const known_pick *picks, int32_t count, const rlf_pose *T,
-                         const known_sight *sight)
+static math_rigid_sums look(const known_pick *picks, int32_t count, const rlf_pose *T,
+                            const known_sight *sight)
 {
-    known_normal n = {{{0}}, {0}};
+    math_rigid_sums n = {.weight = 0.0};
     for (int32_t i = 0; i < count; i++) {
         const known_pick *pick = &picks[i];
         rlf_vec3 p = rlf_transform(T, pick->model), arm = rlf_sub(p, T->p);
@@ -161,11 +158,11 @@ static rlf_vec3 candidate(const known_pick *pick, int32_t side, const known_sigh
 
 /* Gauss-Newton from *T on; out_sums: how firmly the picks hold the pose. */
 static void settle(const known_pick *picks, int32_t count, const known_sight *sight, rlf_pose *T,
-                   known_normal *out_sums)
+                   math_rigid_sums *out_sums)
 {
     for (int32_t i = 0; i < ROUNDS; i++) {
         *out_sums = look(picks, count, T, sight);
-        if (!known_normal_apply(out_sums, T)) {
+        if (!known_step(out_sums, T)) {
             break;
         }
     }
@@ -194,7 +191,7 @@ static void try_three(const known_pick *all, int32_t count, const int32_t three[
         start = cost < best_start ? T : start;
         best_start = rlf_min(cost, best_start);
     }
-    known_normal sums;
+    math_rigid_sums sums;
     settle(all, count, sight, &start, &sums);
     double cost = cost_of(all, count, &start, sight);
     *out = cost < *best ? start : *out;
@@ -270,7 +267,7 @@ static rlf_result check_fit(const known_pick *picks, int32_t count, const known_
 
 /* out_sums: how firmly the picks hold the pose. */
 static rlf_result solve_points(const rlf_known_def *def, const rlf_known_view *view,
-                               rlf_known_fit *fit, known_normal *out_sums)
+                               rlf_known_fit *fit, math_rigid_sums *out_sums)
 {
     known_pick picks[RLF_KNOWN_POINTS_MAX];
     known_sight sight;
@@ -341,7 +338,7 @@ rlf_result rlf_known_solve(const rlf_known_def *def, const rlf_known_view *view,
         return RLF_ERROR_INVALID;
     }
     *out = (rlf_known_fit){.T_world_model = def->T_world_model};
-    known_normal picks;
+    math_rigid_sums picks;
     rlf_result result = check(def, view);
     if (result == RLF_OK && def->point_count > 0) {
         result = solve_points(def, view, out, &picks);

@@ -5,6 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+void map_slabs_take(map_slabs *slabs, rlf_arena *arena, int32_t blocks)
+{
+    slabs->slab_capacity = (blocks + MAP_SLAB - 1) / MAP_SLAB;
+    slabs->slab = arena_take(arena, (size_t)slabs->slab_capacity, sizeof(map_block *));
+}
+
 bool map_slabs_reserve(map_slabs *slabs, int32_t count)
 {
     while (slabs->slab_count * MAP_SLAB < count && slabs->slab_count < slabs->slab_capacity) {
@@ -22,8 +28,6 @@ void map_slabs_free(map_slabs *slabs)
     for (int32_t i = 0; i < slabs->slab_count; i++) {
         rlf_free(slabs->slab[i]);
     }
-    rlf_free(slabs->slab);
-    memset(slabs, 0, sizeof(*slabs));
 }
 
 static uint32_t home(const map_volume *v, uint64_t key)
@@ -31,7 +35,7 @@ static uint32_t home(const map_volume *v, uint64_t key)
     return (uint32_t)((key * 0x9e3779b97f4a7c15u) >> 32) & v->table_mask;
 }
 
-bool map_volume_create(map_volume *v, int32_t capacity)
+void map_volume_take(map_volume *v, rlf_arena *arena, int32_t capacity)
 {
     size_t n = (size_t)capacity;
     uint32_t size = 64;
@@ -40,37 +44,15 @@ bool map_volume_create(map_volume *v, int32_t capacity)
     }
     v->capacity = capacity;
     v->table_mask = size - 1;
-    v->slabs.slab_capacity = (capacity + MAP_SLAB - 1) / MAP_SLAB;
-    v->slabs.slab = rlf_alloc_array((size_t)v->slabs.slab_capacity, sizeof(map_block *));
-    v->place = rlf_alloc_array(n, sizeof(v->place[0]));
-    v->after = rlf_alloc_array(n, sizeof(v->after[0]));
-    v->marked = rlf_alloc_array(n, sizeof(uint32_t));
-    v->kept = rlf_alloc_array(n, sizeof(uint32_t));
-    v->flags = rlf_alloc_array(n, 1);
-    v->front = rlf_alloc_array(n, sizeof(v->front[0]));
-    v->free_list = rlf_alloc_array(n, sizeof(int32_t));
-    v->table = rlf_alloc_array(size, sizeof(map_entry));
-    bool is_whole = v->slabs.slab != NULL && v->place != NULL && v->after != NULL &&
-                    v->marked != NULL && v->kept != NULL && v->flags != NULL && v->front != NULL &&
-                    v->free_list != NULL && v->table != NULL;
-    if (is_whole) {
-        map_volume_clear(v);
-    }
-    return is_whole;
-}
-
-void map_volume_destroy(map_volume *v)
-{
-    map_slabs_free(&v->slabs);
-    rlf_free(v->place);
-    rlf_free(v->after);
-    rlf_free(v->marked);
-    rlf_free(v->kept);
-    rlf_free(v->flags);
-    rlf_free(v->front);
-    rlf_free(v->free_list);
-    rlf_free(v->table);
-    memset(v, 0, sizeof(*v));
+    map_slabs_take(&v->slabs, arena, capacity);
+    v->place = arena_take(arena, n, sizeof(v->place[0]));
+    v->after = arena_take(arena, n, sizeof(v->after[0]));
+    v->marked = arena_take(arena, n, sizeof(uint32_t));
+    v->kept = arena_take(arena, n, sizeof(uint32_t));
+    v->flags = arena_take(arena, n, 1);
+    v->front = arena_take(arena, n, sizeof(v->front[0]));
+    v->free_list = arena_take(arena, n, sizeof(int32_t));
+    v->table = arena_take(arena, size, sizeof(map_entry));
 }
 
 void map_volume_clear(map_volume *v)

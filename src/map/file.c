@@ -15,15 +15,28 @@
 
 static const uint8_t magic[8] = {'R', 'L', 'F', 'M', 'A', 'P', '\r', '\n'};
 
-static uint64_t checksum(uint64_t sum, const uint8_t *data, size_t size)
+/* Bytes on their way to a file or from it, and the checksum of those that passed. */
+typedef struct stream {
+    rlf_map_write_fn write; /* one of these is NULL */
+    rlf_map_read_fn read;
+    void *context;
+    uint64_t sum;
+} stream;
+
+static bool pass(stream *s, uint8_t *data, size_t size)
 {
-    for (size_t i = 0; i < size; i++) {
-        sum = (sum ^ data[i]) * 0x100000001b3u;
+    const bool is_done =
+        s->write != NULL ? s->write(s->context, data, size) : s->read(s->context, data, size);
+    for (size_t i = 0; i < size && is_done; i++) {
+        s->sum = (s->sum ^ data[i]) * 0x100000001b3u;
     }
-    return sum;
+    return is_done;
 }
 
-#define CHECKSUM_BEGIN 0xcbf29ce484222325u
+static stream stream_begin(rlf_map_write_fn write, rlf_map_read_fn read, void *context)
+{
+    return (stream){write, read, context, 0xcbf29ce484222325u};
+}
 
 static void put(uint8_t *out, uint64_t value, int32_t bytes)
 {
@@ -62,21 +75,14 @@ static double get_double(const uint8_t *in)
     return value;
 }
 
+/* A viewpoint's numbers are a pose's, in its order. */
 static void pack_viewpoint(const rlf_pose *T, uint8_t out[VIEWPOINT_SIZE])
 {
-    const double values[7] = {T->p.x, T->p.y, T->p.z, T->q.x, T->q.y, T->q.z, T->q.w};
+    double values[7];
+    memcpy(values, T, sizeof(values));
     for (int32_t i = 0; i < 7; i++) {
         put_double(out + 8 * i, values[i]);
     }
-}
-
-static rlf_pose unpack_viewpoint(const uint8_t in[VIEWPOINT_SIZE])
-{
-    double v[7];
-    for (int32_t i = 0; i < 7; i++) {
-        v[i] = get_double(in + 8 * i);
-    }
-    return (rlf_pose){{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}};
 }
 
 static void pack(const int16_t place[4], const map_block *b, uint8_t out[BLOCK_SIZE])
@@ -108,8 +114,7 @@ static void unpack(const uint8_t in[BLOCK_SIZE], map_block *b)
     memcpy(b->chroma, at, sizeof(b->chroma));
 }
 
-static bool write_all(const rlf_map *map, const int32_t *order, rlf_map_write_fn write,
-                      void *context)
+static bool write_all(const rlf_map *map, const int32_t *order, stream *s)
 {
     uint8_t head[HEAD_SIZE], viewpoint[VIEWPOINT_SIZE], block[BLOCK_SIZE], tail[8];
     memcpy(head, magic, sizeof(magic));
@@ -117,20 +122,17 @@ static bool write_all(const rlf_map *map, const int32_t *order, rlf_map_write_fn
     put_double(head + 12, map->def.voxel_m);
     put(head + 20, (uint32_t)map->volume.count, 4);
     put(head + 24, (uint32_t)map->viewpoint_count, 4);
-    uint64_t sum = checksum(CHECKSUM_BEGIN, head, sizeof(head));
-    bool is_written = write(context, head, sizeof(head));
+    bool is_written = pass(s, head, sizeof(head));
     for (int32_t i = 0; is_written && i < map->viewpoint_count; i++) {
         pack_viewpoint(&map->viewpoint[i], viewpoint);
-        sum = checksum(sum, viewpoint, sizeof(viewpoint));
-        is_written = write(context, viewpoint, sizeof(viewpoint));
+        is_written = pass(s, viewpoint, sizeof(viewpoint));
     }
     for (int32_t i = 0; is_written && i < map->volume.count; i++) {
         pack(map->volume.place[order[i]], map_block_at(&map->volume, order[i]), block);
-        sum = checksum(sum, block, sizeof(block));
-        is_written = write(context, block, sizeof(block));
+        is_written = pass(s, block, sizeof(block));
     }
-    put(tail, sum, 8);
-    return is_written && write(context, tail, sizeof(tail));
+    put(tail, s->sum, 8);
+    return is_written && pass(s, tail, sizeof(tail));
 }
 
 rlf_result rlf_map_save(const rlf_map *map, rlf_map_write_fn write, void *context)
@@ -138,10 +140,11 @@ rlf_result rlf_map_save(const rlf_map *map, rlf_map_write_fn write, void *contex
     if (!RLF_ASSERT(map != NULL && write != NULL)) {
         return RLF_ERROR_INVALID;
     }
+    stream s = stream_begin(write, NULL, context);
     int32_t *order = rlf_alloc_array((size_t)map->volume.count + 1, sizeof(int32_t));
     rlf_result result = RLF_ERROR_MEMORY;
     if (order != NULL && map_volume_sorted(&map->volume, order)) {
-        result = write_all(map, order, write, context)
+        result = write_all(map, order, &s)
                      ? RLF_OK
                      : rlf_fail(RLF_ERROR_IO, "map: could not be written whole");
     }
@@ -188,12 +191,13 @@ static rlf_result read_head(rlf_map *map, const uint8_t head[HEAD_SIZE], uint32_
 
 static rlf_result read_viewpoint(rlf_map *map, const uint8_t data[VIEWPOINT_SIZE])
 {
-    const rlf_pose T = unpack_viewpoint(data);
-    if (!map_pose_is_sound(&T)) {
-        return damaged("a viewpoint is no pose");
+    double values[7];
+    for (int32_t i = 0; i < 7; i++) {
+        values[i] = get_double(data + 8 * i);
     }
-    map->viewpoint[map->viewpoint_count++] = T;
-    return RLF_OK;
+    rlf_pose *T = &map->viewpoint[map->viewpoint_count++];
+    memcpy(T, values, sizeof(values));
+    return math_pose_is_sound(T) ? RLF_OK : damaged("a viewpoint is no pose");
 }
 
 static rlf_result read_block(rlf_map *map, const uint8_t data[BLOCK_SIZE], uint64_t *last_key)
@@ -218,36 +222,30 @@ static rlf_result read_block(rlf_map *map, const uint8_t data[BLOCK_SIZE], uint6
     return RLF_OK;
 }
 
-static rlf_result read_all(rlf_map *map, rlf_map_read_fn read, void *context)
+static rlf_result read_all(rlf_map *map, stream *s)
 {
-    uint8_t head[HEAD_SIZE], viewpoint[VIEWPOINT_SIZE], block[BLOCK_SIZE], tail[8];
+    static const char cut[] = "it is cut short";
+    uint8_t head[HEAD_SIZE] = {0}, viewpoint[VIEWPOINT_SIZE] = {0}, block[BLOCK_SIZE] = {0},
+            tail[8] = {0};
     uint32_t count = 0, viewpoints = 0;
-    if (!read(context, head, sizeof(head))) {
-        return damaged("it is cut short");
+    uint64_t last_key = 0;
+    if (!pass(s, head, sizeof(head))) {
+        return damaged(cut);
     }
     rlf_result result = read_head(map, head, &count, &viewpoints);
-    uint64_t sum = checksum(CHECKSUM_BEGIN, head, sizeof(head)), last_key = 0;
     for (uint32_t i = 0; result == RLF_OK && i < viewpoints; i++) {
-        if (!read(context, viewpoint, sizeof(viewpoint))) {
-            return damaged("it is cut short");
-        }
-        sum = checksum(sum, viewpoint, sizeof(viewpoint));
-        result = read_viewpoint(map, viewpoint);
+        const bool is_read = pass(s, viewpoint, sizeof(viewpoint));
+        result = is_read ? read_viewpoint(map, viewpoint) : damaged(cut);
     }
     for (uint32_t i = 0; result == RLF_OK && i < count; i++) {
-        if (!read(context, block, sizeof(block))) {
-            return damaged("it is cut short");
-        }
-        sum = checksum(sum, block, sizeof(block));
-        result = read_block(map, block, &last_key);
+        const bool is_read = pass(s, block, sizeof(block));
+        result = is_read ? read_block(map, block, &last_key) : damaged(cut);
     }
-    if (result != RLF_OK) {
-        return result;
+    const uint64_t sum = s->sum;
+    if (result == RLF_OK && (!pass(s, tail, sizeof(tail)) || get(tail, 8) != sum)) {
+        result = damaged("it is cut short or damaged (its checksum is another)");
     }
-    if (!read(context, tail, sizeof(tail)) || get(tail, 8) != sum) {
-        return damaged("it is cut short or damaged (its checksum is another)");
-    }
-    return RLF_OK;
+    return result;
 }
 
 rlf_result rlf_map_load(rlf_map *map, rlf_map_read_fn read, void *context)
@@ -257,7 +255,8 @@ rlf_result rlf_map_load(rlf_map *map, rlf_map_read_fn read, void *context)
     }
     const double voxel_m = map->def.voxel_m;
     rlf_map_clear(map);
-    rlf_result result = read_all(map, read, context);
+    stream s = stream_begin(NULL, read, context);
+    const rlf_result result = read_all(map, &s);
     if (result != RLF_OK) {
         rlf_map_clear(map);
         map->def.voxel_m = voxel_m;

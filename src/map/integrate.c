@@ -1,5 +1,5 @@
 /* A view into the volume: the blocks near what it sees, then those that it sees through. */
-#include "map/mark.h"
+#include "camera/pixels.h"
 #include "map/volume.h"
 
 #include <stddef.h>
@@ -10,6 +10,11 @@ enum {
                          into all blocks asks all of them in each */
     GRAIN = 32        /* blocks */
 };
+
+/* Distances are true up to this many sigma(z) of a surface. */
+#define TRUNCATION_SIGMAS 4.0f
+/* Frames that must see through a voxel before what was there is gone. */
+#define CARVE_AFTER 4.0f
 
 typedef struct fuse_job {
     rlf_map *map;
@@ -34,17 +39,17 @@ static rlf_fuse_view view_make(const rlf_map *map, const rlf_map_view *in, int32
         .cy = (float)c->cy,
         .planes = map->planes,
         .least = map->least,
-        .rgba = def->keep_color ? in->rgba : NULL,
+        .rgba = in->rgba,
         .color_turn = (int32_t)(map->frames / turns & 3),
         .source_of = map->source_of,
         .noise = rlf_kernel_noise_make(&def->rig.noise),
-        .sigmas = (float)def->truncation_sigmas,
+        .sigmas = TRUNCATION_SIGMAS,
         .truncation_least = (float)MAP_TRUNCATION_LEAST * voxel,
         .truncation_most = (float)MAP_TRUNCATION_MOST * voxel,
         .voxel = voxel,
         .nearest_sigma = (float)rlf_depth_noise_sigma(&def->rig.noise, 1.0),
         /* A mean of c parts old and one part new passes zero after (c + 1/2) ln 2 frames. */
-        .carve_weight = 1.4427f * (float)def->carve_after - 0.5f,
+        .carve_weight = 1.4427f * CARVE_AFTER - 0.5f,
     };
     return view;
 }
@@ -75,35 +80,21 @@ static void choose_seen(fuse_job *job)
 static bool is_seen_through(const fuse_job *job, int32_t block)
 {
     const rlf_map *map = job->map;
-    const double side = map->def.voxel_m * MAP_SIDE;
-    const int16_t *at = map->volume.place[block];
-    const rlf_vec3 middle = {(at[0] + 0.5) * side, (at[1] + 0.5) * side, (at[2] + 0.5) * side};
-    const rlf_vec3 p =
-        rlf_mat3_mul_vec(&job->R_camera_world, rlf_sub(middle, job->T_world_camera.p));
-    const rlf_camera *c = &map->pinhole;
-    if (!(p.z > 0.1)) {
-        return false;
-    }
-    const double u = c->fx * p.x / p.z + c->cx + 0.5, v = c->fy * p.y / p.z + c->cy + 0.5;
-    if (!(u >= 0.0 && v >= 0.0 && u < c->width && v < c->height)) {
-        return false;
-    }
-    int32_t pixel = (int32_t)v * c->width + (int32_t)u;
-    pixel = map->source_of != NULL ? map->source_of[pixel] : pixel;
-    const double depth = pixel >= 0 ? map->clean[pixel] : 0.0;
-    return depth > p.z;
+    const rlf_vec3 way = map_block_way(map, map->volume.place[block], job->T_world_camera.p);
+    const rlf_vec3 p = rlf_mat3_mul_vec(&job->R_camera_world, way);
+    const int32_t pixel = p.z > 0.1 ? camera_pixel_of(&map->def.rig.depth, p) : -1;
+    return pixel >= 0 && map->clean[pixel] > p.z;
 }
 
 static void choose_carved(fuse_job *job)
 {
     rlf_map *map = job->map;
     const map_volume *v = &map->volume;
-    const int32_t budget =
-        map->def.blocks_per_frame > 0 ? map->def.blocks_per_frame / 4 + 1 : v->capacity;
     const bool has_time = map->def.blocks_per_frame == 0;
+    const int32_t budget = has_time ? v->capacity : map->def.blocks_per_frame / 4 + 1;
     const int32_t share = has_time ? v->high : v->high / CARVE_FRAMES + 1;
     int32_t cursor = !has_time && map->carve_cursor < v->high ? map->carve_cursor : 0;
-    int32_t end = cursor + share < v->high ? cursor + share : v->high;
+    const int32_t end = cursor + share < v->high ? cursor + share : v->high;
     const int32_t most = map->chosen_count + budget;
     for (; cursor < end && map->chosen_count < most; cursor++) {
         if ((v->flags[cursor] & MAP_LIVE) && v->marked[cursor] != map->tick &&
@@ -128,24 +119,24 @@ static void fuse_blocks(void *context, int32_t begin, int32_t end, int32_t worke
 {
     const fuse_job *job = context;
     rlf_map *map = job->map;
-    const double voxel = map->def.voxel_m;
+    const double voxel = map->def.voxel_m, side = voxel * MAP_SIDE;
     const rlf_mat3 *R = &job->R_camera_world;
+    rlf_fuse_place place;
     (void)worker;
+    for (int32_t k = 0; k < 9; k++) {
+        place.step[k / 3][k % 3] = (float)(R->m[k % 3][k / 3] * voxel);
+    }
     for (int32_t i = begin; i < end; i++) {
         const int32_t block = map->chosen[i];
         if (i + 1 < end) {
             look_ahead(map_block_at(&map->volume, map->chosen[i + 1]));
         }
         const int16_t *at = map->volume.place[block];
-        const double side = voxel * MAP_SIDE;
         const rlf_vec3 corner = {at[0] * side, at[1] * side, at[2] * side};
         const rlf_vec3 p = rlf_mat3_mul_vec(R, rlf_sub(corner, job->T_world_camera.p));
-        rlf_fuse_place place = {.origin = {(float)p.x, (float)p.y, (float)p.z}};
-        for (int32_t k = 0; k < 3; k++) {
-            for (int32_t r = 0; r < 3; r++) {
-                place.step[k][r] = (float)(R->m[r][k] * voxel);
-            }
-        }
+        place.origin[0] = (float)p.x;
+        place.origin[1] = (float)p.y;
+        place.origin[2] = (float)p.z;
         if (rlf_kernel_fuse_block(&job->view, &place, map_block_at(&map->volume, block)) ||
             (map->volume.flags[block] & MAP_IS_NEW) != 0) {
             map_block_look(&map->volume, block);
@@ -175,7 +166,7 @@ rlf_result rlf_map_integrate(rlf_map *map, const rlf_map_view *view, const rlf_p
         !RLF_ASSERT(view->depth != NULL)) {
         return RLF_ERROR_INVALID;
     }
-    if (!map_pose_is_sound(T_world_camera)) {
+    if (!math_pose_is_sound(T_world_camera)) {
         return rlf_fail(RLF_ERROR_INVALID, "map: the camera's pose is not finite or its quaternion "
                                            "is not of unit length: the frame is left out");
     }

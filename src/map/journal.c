@@ -3,22 +3,12 @@
 
 #include <string.h>
 
-bool map_journal_create(map_journal *j, int32_t slot_capacity, int32_t block_capacity)
+void map_journal_take(map_journal *j, rlf_arena *arena, int32_t slots, int32_t blocks)
 {
-    j->epoch = 1;
-    j->slot_capacity = slot_capacity;
-    j->memo_capacity = slot_capacity + block_capacity;
-    j->memo = rlf_alloc_array((size_t)j->memo_capacity, sizeof(map_memo));
-    j->slabs.slab_capacity = (slot_capacity + MAP_SLAB - 1) / MAP_SLAB;
-    j->slabs.slab = rlf_alloc_array((size_t)j->slabs.slab_capacity, sizeof(map_block *));
-    return j->memo != NULL && j->slabs.slab != NULL;
-}
-
-void map_journal_destroy(map_journal *j)
-{
-    map_slabs_free(&j->slabs);
-    rlf_free(j->memo);
-    memset(j, 0, sizeof(*j));
+    j->slot_capacity = slots;
+    j->memo_capacity = slots + blocks;
+    j->memo = arena_take(arena, (size_t)j->memo_capacity, sizeof(map_memo));
+    map_slabs_take(&j->slabs, arena, slots);
 }
 
 static void begin_epoch(rlf_map *map)
@@ -54,23 +44,21 @@ void map_journal_keep(rlf_map *map, int32_t block, bool is_new)
     if (map->volume.kept[block] == j->epoch) {
         return;
     }
-    bool is_full = j->memo_count == j->memo_capacity || j->slot_count == j->slot_capacity ||
-                   !map_slabs_reserve(&j->slabs, j->slot_count + 1);
-    if (is_full) {
+    const bool is_full = j->memo_count == j->memo_capacity || j->slot_count == j->slot_capacity;
+    if (is_full || !map_slabs_reserve(&j->slabs, j->slot_count + 1)) {
         begin_epoch(map);
         j->has_moved = true;
     }
     map->volume.kept[block] = j->epoch;
-    map_memo *memo = &j->memo[j->memo_count];
-    memcpy(memo->place, map->volume.place[block], sizeof(memo->place));
-    memo->slot = -1;
-    if (!is_new && map_slabs_reserve(&j->slabs, j->slot_count + 1)) {
-        memo->slot = j->slot_count++;
-        *map_slabs_at(&j->slabs, memo->slot) = *map_block_at(&map->volume, block);
-    } else if (!is_new) {
+    if (!is_new && !map_slabs_reserve(&j->slabs, j->slot_count + 1)) {
         return; /* no memory for a single slab: this block cannot be taken back */
     }
-    j->memo_count++;
+    map_memo *memo = &j->memo[j->memo_count++];
+    memcpy(memo->place, map->volume.place[block], sizeof(memo->place));
+    memo->slot = is_new ? -1 : j->slot_count++;
+    if (!is_new) {
+        *map_slabs_at(&j->slabs, memo->slot) = *map_block_at(&map->volume, block);
+    }
 }
 
 /* New blocks go first, so that there is room for those that come back. A block that left and came
@@ -89,13 +77,8 @@ static void restore(rlf_map *map)
     for (int32_t i = 0; i < j->memo_count; i++) {
         const map_memo *memo = &j->memo[i];
         const int16_t *p = memo->place;
-        if (memo->slot < 0) {
-            continue;
-        }
-        int32_t block = map_volume_find(v, p[0], p[1], p[2]);
-        if (block < 0) {
-            block = map_volume_add(v, p[0], p[1], p[2]);
-        }
+        int32_t block = memo->slot >= 0 ? map_volume_find(v, p[0], p[1], p[2]) : -1;
+        block = memo->slot >= 0 && block < 0 ? map_volume_add(v, p[0], p[1], p[2]) : block;
         if (block >= 0) {
             *map_block_at(v, block) = *map_slabs_at(&j->slabs, memo->slot);
             map_block_look(v, block);

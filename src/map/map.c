@@ -3,11 +3,15 @@
 
 #include "base/cookie.h"
 #include "camera/checks.h"
+#include "camera/pixels.h"
 
 #include <string.h>
 
 /* Bytes that a block costs beside its voxels: tables, and its share of the journal. */
 #define TABLE_BYTES 168
+/* A pose this near to a viewpoint in both is no new one. */
+#define APART_M 0.25
+#define APART_COSINE 0.9914 /* of half the angle, 15 degrees */
 
 rlf_map_def rlf_map_def_default(void)
 {
@@ -16,10 +20,7 @@ rlf_map_def rlf_map_def_default(void)
     def.cookie = RLF_DEF_COOKIE;
     def.voxel_m = 0.006;
     def.memory_mb = 288;
-    def.truncation_sigmas = 4.0;
     def.blocks_per_frame = 768;
-    def.carve_after = 4;
-    def.keep_color = true;
     return def;
 }
 
@@ -40,84 +41,56 @@ static rlf_result check(const rlf_map_def *def)
     if (def->memory_mb < 8 || def->memory_mb > RLF_MAP_MEMORY_MOST_MB) {
         return out_of_range("memory_mb", "8..16384 MiB");
     }
-    if (!(def->truncation_sigmas >= 1.0 && def->truncation_sigmas <= 100.0)) {
-        return out_of_range("truncation_sigmas", "1..100");
-    }
     if (def->blocks_per_frame < 0) {
         return out_of_range("blocks_per_frame", "0 (all) or more");
-    }
-    if (def->carve_after < 1 || def->carve_after > 16) {
-        return out_of_range("carve_after", "1..16");
     }
     return RLF_OK;
 }
 
-/* Rays of the rig's pixels, and which of them a pinhole's pixel shows. */
-static void fill_rays(rlf_map *map)
-{
-    const rlf_camera *lens = &map->def.rig.depth;
-    for (int32_t y = 0; y < lens->height; y++) {
-        for (int32_t x = 0; x < lens->width; x++) {
-            const size_t i = (size_t)y * (size_t)lens->width + (size_t)x;
-            rlf_vec3 ray;
-            bool has_ray = rlf_camera_unproject(lens, x, y, &ray);
-            map->ray_x[i] = has_ray ? (float)ray.x : 0.0f;
-            map->ray_y[i] = has_ray ? (float)ray.y : 0.0f;
-            if (map->source_of == NULL) {
-                continue;
-            }
-            const rlf_vec3 straight = {(x - lens->cx) / lens->fx, (y - lens->cy) / lens->fy, 1.0};
-            double u, v;
-            bool is_seen = rlf_camera_project(lens, straight, &u, &v) && u > -0.5 && v > -0.5 &&
-                           u < lens->width - 0.5 && v < lens->height - 0.5;
-            map->source_of[i] =
-                is_seen ? (int32_t)(v + 0.5) * lens->width + (int32_t)(u + 0.5) : -1;
-        }
-    }
-}
-
-static bool take_planes(rlf_map *map)
+/* Which of the rig's pixels a pinhole's pixel shows. */
+static void fill_sources(rlf_map *map)
 {
     const rlf_camera *c = &map->pinhole;
-    const size_t n = (size_t)c->width * (size_t)c->height;
-    const size_t tiles = ((size_t)c->width / 8 + 1) * ((size_t)c->height / 8 + 1);
-    const size_t blocks = (size_t)map->volume.capacity;
-    const bool is_bent = map->def.rig.depth.distortion_model != RLF_DISTORTION_NONE;
-    map->source_of = is_bent ? rlf_alloc_array(n, sizeof(int32_t)) : NULL;
-    map->ray_x = rlf_alloc_array(n, sizeof(float));
-    map->ray_y = rlf_alloc_array(n, sizeof(float));
-    map->planes = rlf_alloc_array(n, sizeof(rlf_fuse_plane));
-    map->clean = rlf_alloc_array(n, sizeof(float));
-    map->scratch = rlf_alloc_array((size_t)rlf_pool_worker_count(map->def.pool),
-                                   3 * (size_t)c->width * sizeof(float));
-    map->row_least = rlf_alloc_array(n, sizeof(float));
-    map->least = rlf_alloc_array(n, sizeof(float));
-    map->seen = rlf_alloc_array(blocks, sizeof(int32_t));
-    map->chosen = rlf_alloc_array(blocks, sizeof(int32_t));
-    map_view_planes *out = &map->out;
-    out->depth = rlf_alloc_array(n, sizeof(float));
-    for (int32_t k = 0; k < 3; k++) {
-        out->normal[k] = rlf_alloc_array(n, sizeof(float));
+    for (int32_t i = 0; i < c->width * c->height && map->source_of != NULL; i++) {
+        const double x = i % c->width, y = i / c->width;
+        const rlf_vec3 ray = {(x - c->cx) / c->fx, (y - c->cy) / c->fy, 1.0};
+        map->source_of[i] = camera_pixel_of(&map->def.rig.depth, ray);
     }
-    out->grey = rlf_alloc_array(n, 1);
-    out->rgba = rlf_alloc_array(n, 4);
-    out->start = rlf_alloc_array(n, sizeof(int32_t));
-    out->tile_far = rlf_alloc_array(tiles, sizeof(float));
-    return (map->source_of != NULL || !is_bent) && map->ray_x != NULL && map->ray_y != NULL &&
-           map->planes != NULL && map->clean != NULL && map->scratch != NULL &&
-           map->row_least != NULL && map->least != NULL && map->seen != NULL &&
-           map->chosen != NULL && out->depth != NULL && out->normal[0] != NULL &&
-           out->normal[1] != NULL && out->normal[2] != NULL && out->grey != NULL &&
-           out->rgba != NULL && out->start != NULL && out->tile_far != NULL;
 }
 
-static bool take_memory(rlf_map *map)
+static void take_all(void *context)
 {
+    rlf_map *map = context;
+    rlf_arena *a = &map->arena;
+    map_view_planes *out = &map->out;
     const double bytes = (double)map->def.memory_mb * 1048576.0;
     const double each = 1.125 * (double)sizeof(map_block) + TABLE_BYTES;
     const int32_t capacity = (int32_t)(bytes / each);
-    return map_volume_create(&map->volume, capacity) &&
-           map_journal_create(&map->journal, capacity / 8, capacity) && take_planes(map);
+    const rlf_camera *c = &map->pinhole;
+    const size_t n = (size_t)c->width * (size_t)c->height, blocks = (size_t)capacity;
+    const size_t tiles = ((size_t)c->width / 8 + 1) * ((size_t)c->height / 8 + 1);
+    const size_t workers = (size_t)rlf_pool_worker_count(map->def.pool);
+    const bool is_bent = map->def.rig.depth.distortion_model != RLF_DISTORTION_NONE;
+    map_volume_take(&map->volume, a, capacity);
+    map_journal_take(&map->journal, a, capacity / 8, capacity);
+    map->source_of = is_bent ? arena_take(a, n, sizeof(int32_t)) : NULL;
+    map->ray_x = arena_take(a, n, sizeof(float));
+    map->ray_y = arena_take(a, n, sizeof(float));
+    map->planes = arena_take(a, n, sizeof(rlf_fuse_plane));
+    map->clean = arena_take(a, n, sizeof(float));
+    map->scratch = arena_take(a, workers, 3 * (size_t)c->width * sizeof(float));
+    map->row_least = arena_take(a, n, sizeof(float));
+    map->least = arena_take(a, n, sizeof(float));
+    map->seen = arena_take(a, blocks, sizeof(int32_t));
+    map->chosen = arena_take(a, blocks, sizeof(int32_t));
+    out->depth = arena_take(a, n, sizeof(float));
+    for (int32_t k = 0; k < 3; k++) {
+        out->normal[k] = arena_take(a, n, sizeof(float));
+    }
+    out->grey = arena_take(a, n, 1);
+    out->rgba = arena_take(a, n, 4);
+    out->start = arena_take(a, n, sizeof(int32_t));
+    out->tile_far = arena_take(a, tiles, sizeof(float));
 }
 
 rlf_result rlf_map_create(const rlf_map_def *def, rlf_map **out)
@@ -135,14 +108,14 @@ rlf_result rlf_map_create(const rlf_map_def *def, rlf_map **out)
         return RLF_ERROR_MEMORY;
     }
     map->def = *def;
-    map->pinhole = def->rig.depth;
-    map->pinhole.distortion_model = RLF_DISTORTION_NONE;
-    memset(map->pinhole.distortion, 0, sizeof(map->pinhole.distortion));
-    if (!take_memory(map)) {
-        rlf_map_destroy(&map);
+    map->pinhole = camera_pinhole(&def->rig.depth);
+    if (!arena_create(&map->arena, take_all, map)) {
+        rlf_free(map);
         return RLF_ERROR_MEMORY;
     }
-    fill_rays(map);
+    camera_fill_rays(&def->rig.depth, map->ray_x, map->ray_y);
+    fill_sources(map);
+    rlf_map_clear(map);
     *out = map;
     return RLF_OK;
 }
@@ -153,16 +126,9 @@ void rlf_map_destroy(rlf_map **pointer)
         return;
     }
     rlf_map *map = *pointer;
-    map_volume_destroy(&map->volume);
-    map_journal_destroy(&map->journal);
-    void *const all[] = {map->source_of,     map->ray_x,         map->ray_y,     map->planes,
-                         map->clean,         map->scratch,       map->row_least, map->least,
-                         map->seen,          map->chosen,        map->out.depth, map->out.normal[0],
-                         map->out.normal[1], map->out.normal[2], map->out.grey,  map->out.rgba,
-                         map->out.start,     map->out.tile_far};
-    for (size_t i = 0; i < sizeof(all) / sizeof(all[0]); i++) {
-        rlf_free(all[i]);
-    }
+    map_slabs_free(&map->volume.slabs);
+    map_slabs_free(&map->journal.slabs);
+    arena_destroy(&map->arena);
     rlf_free(map);
     *pointer = NULL;
 }
@@ -179,22 +145,6 @@ void rlf_map_clear(rlf_map *map)
     map->carve_cursor = 0;
     memset(&map->out.last, 0, sizeof(map->out.last));
     rlf_map_fence(map);
-}
-
-bool map_pose_is_sound(const rlf_pose *T)
-{
-    const rlf_quat q = T->q;
-    const double length2 = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-    return rlf_dot(T->p, T->p) < 1e12 && length2 > 0.98 && length2 < 1.02;
-}
-
-double map_block_distance2(const rlf_map *map, int32_t block, rlf_vec3 p)
-{
-    const double side = map->def.voxel_m * MAP_SIDE;
-    const int16_t *at = map->volume.place[block];
-    const rlf_vec3 d = {(at[0] + 0.5) * side - p.x, (at[1] + 0.5) * side - p.y,
-                        (at[2] + 0.5) * side - p.z};
-    return rlf_dot(d, d);
 }
 
 double rlf_map_truncation(const rlf_map *map)
@@ -231,4 +181,32 @@ rlf_map_status rlf_map_get_status(const rlf_map *map)
         }
     }
     return s;
+}
+
+static bool is_alike(const rlf_pose *a, const rlf_pose *b)
+{
+    const double cosine = a->q.x * b->q.x + a->q.y * b->q.y + a->q.z * b->q.z + a->q.w * b->q.w;
+    return rlf_length(rlf_sub(a->p, b->p)) < APART_M &&
+           (cosine > APART_COSINE || cosine < -APART_COSINE);
+}
+
+void map_viewpoints_add(rlf_map *map, const rlf_pose *T_world_camera)
+{
+    for (int32_t i = 0; i < map->viewpoint_count; i++) {
+        if (is_alike(&map->viewpoint[i], T_world_camera)) {
+            return;
+        }
+    }
+    if (map->viewpoint_count < MAP_VIEWPOINTS) {
+        map->viewpoint[map->viewpoint_count++] = *T_world_camera;
+    }
+}
+
+const rlf_pose *rlf_map_get_viewpoints(const rlf_map *map, int32_t *out_count)
+{
+    if (!RLF_ASSERT(map != NULL && out_count != NULL)) {
+        return NULL;
+    }
+    *out_count = map->viewpoint_count;
+    return map->viewpoint;
 }

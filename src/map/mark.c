@@ -1,9 +1,7 @@
 /* Pixels look for the blocks near their surface. Where several of them see one block, only some
  * look, others in the next frames; where blocks are finer than a pixel, it looks at several places.
  */
-#include "map/mark.h"
-
-#include "map/evict.h"
+#include "map/volume.h"
 
 #include <string.h>
 
@@ -19,22 +17,61 @@ enum {
     BATCH = 64   /* places that memory has to answer in */
 };
 
+/* When the memory is full so large a share of the blocks leaves at a time, so that it is not looked
+ * for at every frame: the farthest, by their distance in blocks. */
+enum { EVICT_SHARE = 64, EVICT_BINS = 1024 };
+
 typedef struct marker {
     rlf_map *map;
     rlf_vec3 eye;
     rlf_mat3 R_world_camera;
     double to_blocks; /* per metre */
-    float reach;      /* a block's side times the focal length, metre pixels */
-    double reach2;    /* squared distance beyond which there is no room in a full memory, m^2 */
+    float size;       /* a block's side times the focal length, metre pixels */
+    int32_t reach;    /* blocks: so far away and farther a full memory has no room */
     rlf_map_change *change;
     int32_t at[BATCH * MARGINS][3];
     int32_t count;
 } marker;
 
-static int32_t floor_block(double x)
+static int32_t bin_of(const rlf_map *map, rlf_vec3 way)
 {
-    int32_t i = (int32_t)x;
-    return x < (double)i ? i - 1 : i;
+    const double blocks = rlf_length(way) / (map->def.voxel_m * MAP_SIDE);
+    return blocks < EVICT_BINS - 1 ? (int32_t)blocks : EVICT_BINS - 1;
+}
+
+/* The bin of a block that may leave, or -1. */
+static int32_t bin_of_block(const marker *m, int32_t block)
+{
+    const map_volume *v = &m->map->volume;
+    const bool may_leave = (v->flags[block] & MAP_LIVE) && v->marked[block] != m->map->tick;
+    return may_leave ? bin_of(m->map, map_block_way(m->map, v->place[block], m->eye)) : -1;
+}
+
+/* Makes room for a block that is this many blocks away: some of those that are farther and that
+ * this frame did not see are removed; returns how many. When there are none nothing farther has
+ * room. */
+static int32_t evict(marker *m, int32_t least)
+{
+    map_volume *v = &m->map->volume;
+    int32_t count[EVICT_BINS] = {0}, bin = EVICT_BINS, sum = 0, evicted = 0;
+    const int32_t wanted = v->count / EVICT_SHARE + 1;
+    for (int32_t i = 0; i < v->high; i++) {
+        const int32_t of = bin_of_block(m, i);
+        count[of > 0 ? of : 0] += of >= 0;
+    }
+    while (bin > least + 1 && sum < wanted) {
+        sum += count[--bin];
+    }
+    m->map->is_full = true;
+    m->reach = sum > 0 ? m->reach : least;
+    for (int32_t i = 0; i < v->high && sum > 0 && evicted < wanted; i++) {
+        if (bin_of_block(m, i) >= bin) {
+            map_journal_keep(m->map, i, false);
+            map_volume_remove(v, i);
+            evicted++;
+        }
+    }
+    return evicted;
 }
 
 /* The block at a place, made when there is none; -1: there is no room for it. */
@@ -46,16 +83,14 @@ static int32_t take(marker *m, const int32_t at[3])
     if (block >= 0) {
         return block;
     }
-    const double side = map->def.voxel_m * MAP_SIDE;
-    const rlf_vec3 d = {(at[0] + 0.5) * side - m->eye.x, (at[1] + 0.5) * side - m->eye.y,
-                        (at[2] + 0.5) * side - m->eye.z};
-    const double distance2 = rlf_dot(d, d);
-    if (v->count == v->capacity && distance2 >= m->reach2) {
+    const int16_t place[4] = {(int16_t)at[0], (int16_t)at[1], (int16_t)at[2]};
+    const int32_t bin = bin_of(map, map_block_way(map, place, m->eye));
+    if (v->count == v->capacity && bin >= m->reach) {
         return -1;
     }
     block = map_volume_add(v, at[0], at[1], at[2]);
     if (block < 0) {
-        m->change->blocks_evicted += map_evict(map, m->eye, distance2, &m->reach2);
+        m->change->blocks_evicted += evict(m, bin);
         block = map_volume_add(v, at[0], at[1], at[2]);
     }
     if (block >= 0) {
@@ -96,7 +131,7 @@ static void look(marker *m, rlf_vec3 ray, double depth)
         bool is_in = true;
         for (int32_t r = 0; r < 3; r++) {
             is_in = is_in && place[r] > -32000.0 && place[r] < 32000.0;
-            at[r] = is_in ? floor_block(place[r]) : 0;
+            at[r] = is_in ? map_floor(place[r]) : 0;
         }
         const int32_t before = m->count - MARGINS; /* the same of the place before */
         if (is_in && (before < 0 || memcmp(at, m->at[before], sizeof(at)) != 0)) {
@@ -128,7 +163,7 @@ static float pixels_on_block(const marker *m, int32_t pixel)
 {
     const rlf_map *map = m->map;
     const float x = map->ray_x[pixel], y = map->ray_y[pixel], z = map->clean[pixel];
-    return m->reach * -map->planes[pixel].offset / (z * z * sqrtf(x * x + y * y + 1.0f));
+    return m->size * -map->planes[pixel].offset / (z * z * sqrtf(x * x + y * y + 1.0f));
 }
 
 /* Those pixels of a row that have their turn. */
@@ -157,8 +192,8 @@ void map_mark(rlf_map *map, const rlf_pose *T_world_camera, rlf_map_change *chan
                 .eye = T_world_camera->p,
                 .R_world_camera = rlf_quat_to_mat3(T_world_camera->q),
                 .to_blocks = 1.0 / side,
-                .reach = (float)(side * rlf_min(map->pinhole.fx, map->pinhole.fy)),
-                .reach2 = 1e300,
+                .size = (float)(side * rlf_min(map->pinhole.fx, map->pinhole.fy)),
+                .reach = INT32_MAX,
                 .change = change};
     /* The pixels that look move by one from frame to frame, in an order that skips about. */
     const int32_t phase = (int32_t)((map->frames * 7) % (SPACING * SPACING));

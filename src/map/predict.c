@@ -1,6 +1,8 @@
-/* What a camera sees of the room: for each pixel the zero along its ray, found from the voxel that
- * is drawn there. */
-#include "map/predict.h"
+/* What a camera sees of the room: for each pixel the zero along its ray, found from the voxel
+ * that is drawn there. */
+#include "map/volume.h"
+
+#include "camera/pixels.h"
 
 #include <string.h>
 
@@ -11,42 +13,21 @@ typedef struct ray {
     const map_volume *v;
     float at[3], way[3], length; /* of way */
     int32_t block_at[3], block;  /* the block looked at last */
-    bool has_grey;
-    float z0, d0; /* the last place in front of a surface; d0 < 0: there is none */
+    float z0, d0;                /* the last place in front of a surface; d0 < 0: there is none */
 } ray;
-
-static int32_t floored(float x)
-{
-    int32_t i = (int32_t)x;
-    return x < (float)i ? i - 1 : i;
-}
 
 /* The block with voxel (i, j, k), or -1. */
 static int32_t find_block(ray *r, const int32_t voxel[3])
 {
     int32_t at[3];
     for (int32_t k = 0; k < 3; k++) {
-        at[k] = (voxel[k] - (voxel[k] & 7)) / MAP_SIDE;
+        at[k] = map_block_of(voxel[k]);
     }
     if (at[0] != r->block_at[0] || at[1] != r->block_at[1] || at[2] != r->block_at[2]) {
         memcpy(r->block_at, at, sizeof(at));
         r->block = map_volume_find(r->v, at[0], at[1], at[2]);
     }
     return r->block;
-}
-
-/* Depth at which the ray leaves the block looked at last. */
-static float leave(const ray *r)
-{
-    float least = 1e30f;
-    for (int32_t k = 0; k < 3; k++) {
-        if (r->way[k] * r->way[k] > 1e-6f) {
-            const float side = r->way[k] > 0.0f ? 7.5f : -0.5f;
-            const float z = ((float)(r->block_at[k] * MAP_SIDE) + side - r->at[k]) / r->way[k];
-            least = z < least ? z : least;
-        }
-    }
-    return least;
 }
 
 /* The corners of a cell, and what is read of them. */
@@ -78,7 +59,7 @@ static bool corners_at(ray *r, float z, corners *out)
     int32_t voxel[3];
     for (int32_t k = 0; k < 3; k++) {
         const float p = r->at[k] + z * r->way[k];
-        voxel[k] = floored(p);
+        voxel[k] = map_floor(p);
         out->in[k] = p - (float)voxel[k];
     }
     out->block = find_block(r, voxel);
@@ -99,16 +80,6 @@ typedef struct hit {
     float z, normal[3];
     uint8_t grey;
 } hit;
-
-/* In its block, nearest to the ray's point. */
-static int32_t nearest_voxel(const corners *c)
-{
-    int32_t at[3];
-    for (int32_t k = 0; k < 3; k++) {
-        at[k] = c->voxel[k] + (c->in[k] > 0.5f ? 1 : 0);
-    }
-    return (at[2] * MAP_SIDE + at[1]) * MAP_SIDE + at[0];
-}
 
 /* Trilinear, of the corners that have one. */
 static uint8_t mean_grey(const map_block *b, const corners *c)
@@ -135,7 +106,7 @@ static uint8_t mean_grey(const map_block *b, const corners *c)
 static bool refine(ray *r, float start, hit *out)
 {
     float z = start, g[3] = {0, 0, 0}, d = 1.0f;
-    corners c;
+    corners c = {.block = -1};
     for (int32_t i = 0; i < 4 && (d > 0.25f || d < -0.25f); i++) {
         if (!corners_at(r, z, &c)) {
             return false;
@@ -153,7 +124,7 @@ static bool refine(ray *r, float start, hit *out)
     }
     const float scale = 1.0f / sqrtf(size2);
     out->z = z;
-    out->grey = r->has_grey ? mean_grey(map_block_at(r->v, c.block), &c) : 0;
+    out->grey = mean_grey(map_block_at(r->v, c.block), &c);
     for (int32_t k = 0; k < 3; k++) {
         out->normal[k] = g[k] * scale;
     }
@@ -168,13 +139,12 @@ static bool cast(ray *r, float z, float far_z, hit *out)
     while (z < far_z) {
         int32_t voxel_at[3];
         for (int32_t k = 0; k < 3; k++) {
-            voxel_at[k] = floored(r->at[k] + z * r->way[k] + 0.5f);
+            voxel_at[k] = map_floor(r->at[k] + z * r->way[k] + 0.5f);
         }
         const int32_t block = find_block(r, voxel_at);
         if (block < 0) {
             r->d0 = -1.0f;
-            const float next = leave(r);
-            z = (next > z ? next : z) + 0.01f * voxel;
+            z += 2.0f * voxel; /* less than what blocks reach beyond a surface */
             continue;
         }
         const int32_t i =
@@ -237,16 +207,6 @@ static void put(const map_caster *c, int32_t i, const hit *h)
     }
 }
 
-/* The block that is drawn at a pixel is likely the one to look at. */
-static void begin_at(ray *r, int32_t block)
-{
-    const int16_t *at = r->v->place[block];
-    r->block = block;
-    for (int32_t k = 0; k < 3; k++) {
-        r->block_at[k] = at[k];
-    }
-}
-
 #define AHEAD 6 /* pixels that memory has to answer in */
 
 /* Brings near what a pixel of the row will read first. */
@@ -263,8 +223,8 @@ static void look_ahead(const map_caster *c, int32_t x, int32_t y, ray *r)
     int32_t voxel[3], at[3];
     bool is_in = true;
     for (int32_t k = 0; k < 3; k++) {
-        voxel[k] = floored(r->at[k] + start * r->way[k]);
-        at[k] = (voxel[k] - (voxel[k] & 7)) / MAP_SIDE;
+        voxel[k] = map_floor(r->at[k] + start * r->way[k]);
+        at[k] = map_block_of(voxel[k]);
         is_in &= at[k] == r->v->place[block][k];
     }
     if (is_in) {
@@ -288,7 +248,10 @@ static void cast_pixel(const map_caster *c, int32_t x, int32_t y, ray *r)
     if (inverse > 0.0f) {
         const float start = 1.0f / inverse;
         const float far_z = c->out->tile_far[(y / MAP_TILE) * c->tile_columns + x / MAP_TILE];
-        begin_at(r, c->out->start[i]);
+        r->block = c->out->start[i]; /* what is drawn there is likely the one to look at */
+        for (int32_t k = 0; k < 3; k++) {
+            r->block_at[k] = r->v->place[r->block][k];
+        }
         ray_make(c, x, y, r);
         if (!refine(r, start, &h) && !cast(r, start - 1.5f / r->length, far_z, &h)) {
             h = none;
@@ -297,41 +260,17 @@ static void cast_pixel(const map_caster *c, int32_t x, int32_t y, ray *r)
     put(c, i, &h);
 }
 
-static void ray_begin(const map_caster *c, ray *r)
-{
-    memset(r, 0, sizeof(*r));
-    r->v = &c->map->volume;
-    r->block_at[0] = INT32_MAX;
-    r->block = -1;
-    r->has_grey = c->map->def.keep_color;
-}
-
 static void cast_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     const map_caster *c = context;
-    ray r;
+    ray r = {.v = &c->map->volume, .block_at = {INT32_MAX}, .block = -1};
     (void)worker;
-    ray_begin(c, &r);
     for (int32_t y = begin; y < end; y++) {
         for (int32_t x = 0; x < c->camera.width; x++) {
             look_ahead(c, x + AHEAD, y, &r);
             cast_pixel(c, x, y, &r);
         }
     }
-}
-
-static void finish(rlf_map *map, const rlf_camera *camera, const rlf_pose *T)
-{
-    map_view_planes *out = &map->out;
-    out->last = (rlf_prediction){
-        .camera = *camera,
-        .T_world_camera = *T,
-        .depth = out->depth,
-        .normal_x = out->normal[0],
-        .normal_y = out->normal[1],
-        .normal_z = out->normal[2],
-        .grey = map->def.keep_color ? out->grey : NULL,
-    };
 }
 
 rlf_result rlf_map_predict(rlf_map *map, const rlf_camera *camera, const rlf_pose *T_world_camera,
@@ -351,44 +290,47 @@ rlf_result rlf_map_predict(rlf_map *map, const rlf_camera *camera, const rlf_pos
                         (int)camera->width, (int)camera->height, (int)map->pinhole.width,
                         (int)map->pinhole.height);
     }
-    if (!map_pose_is_sound(T_world_camera)) {
+    if (!math_pose_is_sound(T_world_camera)) {
         return rlf_fail(RLF_ERROR_INVALID, "rlf_map_predict: the pose is not finite or its "
                                            "quaternion is not of unit length");
     }
-    map_caster c = {.map = map, .camera = *camera, .eye = T_world_camera->p, .out = &map->out};
-    c.camera.distortion_model = RLF_DISTORTION_NONE;
-    memset(c.camera.distortion, 0, sizeof(c.camera.distortion));
+    map_caster c = {.map = map, .eye = T_world_camera->p, .out = &map->out};
+    c.camera = camera_pinhole(camera);
     c.R_world_camera = rlf_quat_to_mat3(rlf_quat_normalize(T_world_camera->q));
     c.R_camera_world = rlf_mat3_transpose(&c.R_world_camera);
     prepare_rays(&c);
     map_splat(&c);
     rlf_parallel_for(map->def.pool, camera->height, GRAIN, cast_rows, &c);
-    finish(map, &c.camera, T_world_camera);
-    *out = map->out.last;
+    *out = map->out.last = (rlf_prediction){
+        .camera = c.camera,
+        .T_world_camera = *T_world_camera,
+        .depth = map->out.depth,
+        .normal_x = map->out.normal[0],
+        .normal_y = map->out.normal[1],
+        .normal_z = map->out.normal[2],
+        .grey = map->out.grey,
+    };
     return RLF_OK;
 }
 
 const uint8_t *rlf_map_predict_color(rlf_map *map)
 {
-    if (!RLF_ASSERT(map != NULL) || !map->def.keep_color || map->out.last.depth == NULL) {
+    if (!RLF_ASSERT(map != NULL) || map->out.last.depth == NULL) {
         return NULL;
     }
     const rlf_prediction *p = &map->out.last;
-    map_caster c = {.map = map, .camera = p->camera, .eye = p->T_world_camera.p, .out = &map->out};
-    c.R_world_camera = rlf_quat_to_mat3(rlf_quat_normalize(p->T_world_camera.q));
-    prepare_rays(&c);
-    ray r;
-    ray_begin(&c, &r);
-    for (int32_t y = 0; y < p->camera.height; y++) {
-        for (int32_t x = 0; x < p->camera.width; x++) {
-            const int32_t i = y * p->camera.width + x;
-            uint8_t *rgba = &map->out.rgba[4 * (ptrdiff_t)i];
-            corners at;
-            memset(rgba, 0, 4);
-            ray_make(&c, x, y, &r);
-            if (p->depth[i] > 0.0f && corners_at(&r, p->depth[i], &at)) {
-                map_voxel_color(map_block_at(r.v, at.block), nearest_voxel(&at), rgba);
-            }
+    const rlf_mat3 R = rlf_quat_to_mat3(rlf_quat_normalize(p->T_world_camera.q));
+    for (int32_t i = 0; i < p->camera.width * p->camera.height; i++) {
+        const double z = (double)p->depth[i], x = i % p->camera.width, y = i / p->camera.width;
+        const rlf_vec3 way = {(x - p->camera.cx) / p->camera.fx, (y - p->camera.cy) / p->camera.fy,
+                              1.0};
+        const rlf_vec3 at = rlf_add(rlf_mat3_mul_vec(&R, rlf_scale(way, z)), p->T_world_camera.p);
+        int32_t voxel;
+        const int32_t block = map_voxel_near(map, at, &voxel);
+        uint8_t *rgba = &map->out.rgba[4 * (ptrdiff_t)i];
+        memset(rgba, 0, 4);
+        if (z > 0.0 && block >= 0) {
+            map_voxel_color(map_block_at(&map->volume, block), voxel, rgba);
         }
     }
     return map->out.rgba;

@@ -1,7 +1,7 @@
 /* The first step of a prediction: voxels drawn as points (compare Prisacariu et al. 2014,
  * InfiniTAM, who draw the blocks' boxes): each pixel's ray then begins within two voxels of its
  * surface. */
-#include "map/predict.h"
+#include "map/volume.h"
 
 #include <string.h>
 
@@ -158,62 +158,36 @@ static void draw_block(map_caster *caster, int32_t block, const float corner[3])
     }
 }
 
-/* The sides of what the camera sees: n . p > -margin for a ball about p that reaches in. */
-typedef struct frustum {
-    float x[4], y[4], z[4], margin[4];
-} frustum;
-
-static frustum frustum_of(const rlf_camera *c, double radius)
+/* Whether a ball about p may be seen; margin: its radius in pixels at a metre, in the corners. */
+static bool is_in_view(const rlf_camera *c, const float p[3], float radius, float margin)
 {
-    /* Tangents of the ways along the picture's edges. */
-    const double left = (-1.0 - c->cx) / c->fx, right = (c->width - c->cx) / c->fx;
-    const double top = (-1.0 - c->cy) / c->fy, bottom = (c->height - c->cy) / c->fy;
-    const rlf_vec3 n[4] = {{1, 0, -left}, {-1, 0, right}, {0, 1, -top}, {0, -1, bottom}};
-    frustum out;
-    for (int32_t k = 0; k < 4; k++) {
-        out.x[k] = (float)n[k].x;
-        out.y[k] = (float)n[k].y;
-        out.z[k] = (float)n[k].z;
-        out.margin[k] = (float)(radius * rlf_length(n[k]));
-    }
-    return out;
-}
-
-static bool is_in_view(const frustum *f, const float p[3], float radius)
-{
-    bool is_in = p[2] > RLF_FUSE_NEAREST_M - radius;
-    for (int32_t k = 0; k < 4; k++) {
-        is_in &= f->x[k] * p[0] + f->y[k] * p[1] + f->z[k] * p[2] > -f->margin[k];
-    }
-    return is_in;
+    const float z = p[2], u = (float)c->fx * p[0] + (float)(c->cx + 1.0) * z;
+    const float v = (float)c->fy * p[1] + (float)(c->cy + 1.0) * z;
+    return (z > RLF_FUSE_NEAREST_M - radius) & (u > -margin) & (v > -margin) &
+           (u < (float)(c->width + 1) * z + margin) & (v < (float)(c->height + 1) * z + margin);
 }
 
 static void begin(map_caster *caster)
 {
     const rlf_mat3 *R = &caster->R_camera_world;
     const rlf_camera *c = &caster->camera;
-    const double voxel = caster->map->def.voxel_m, side = voxel * MAP_SIDE;
-    const int32_t rows = (c->height + MAP_TILE - 1) / MAP_TILE;
+    const double voxel = caster->map->def.voxel_m;
+    const size_t rows = (size_t)(c->height + MAP_TILE - 1) / MAP_TILE;
+    const size_t pixels = (size_t)c->width * (size_t)c->height;
     caster->tile_columns = (c->width + MAP_TILE - 1) / MAP_TILE;
     caster->slack = (float)(4.0 * voxel);
-    for (int32_t i = 0; i < rows * caster->tile_columns; i++) {
-        caster->out->tile_far[i] = 0.0f;
-    }
-    for (int32_t i = 0; i < c->width * c->height; i++) {
-        caster->out->depth[i] = 0.0f;
-    }
-    for (int32_t k = 0; k < 8; k++) {
-        const double low = 0.25 * side, high = 0.75 * side;
-        const rlf_vec3 middle =
-            rlf_mat3_mul_vec(R, rlf_vec3_make((k & 1) != 0 ? high : low, (k & 2) != 0 ? high : low,
-                                              (k & 4) != 0 ? high : low));
-        caster->to_eighth[k][0] = (float)middle.x;
-        caster->to_eighth[k][1] = (float)middle.y;
-        caster->to_eighth[k][2] = (float)middle.z;
-    }
     caster->per_metre = (float)(1.0 / voxel);
+    memset(caster->out->tile_far, 0, rows * (size_t)caster->tile_columns * sizeof(float));
+    memset(caster->out->depth, 0, pixels * sizeof(float));
     for (int32_t k = 0; k < 9; k++) {
         caster->step[k / 3][k % 3] = (float)(R->m[k % 3][k / 3] * voxel);
+    }
+    for (int32_t k = 0; k < 24; k++) { /* two or six voxels along each side */
+        const int32_t eighth = k / 3, r = k % 3;
+        const float x = (eighth & 1) != 0 ? 6.0f : 2.0f, y = (eighth & 2) != 0 ? 6.0f : 2.0f;
+        const float z = (eighth & 4) != 0 ? 6.0f : 2.0f;
+        caster->to_eighth[eighth][r] =
+            x * caster->step[0][r] + y * caster->step[1][r] + z * caster->step[2][r];
     }
 }
 
@@ -222,16 +196,17 @@ void map_splat(map_caster *caster)
     const map_volume *v = &caster->map->volume;
     const rlf_mat3 *R = &caster->R_camera_world;
     const double side = caster->map->def.voxel_m * MAP_SIDE, radius = 0.5 * DIAGONAL * side;
-    const frustum f = frustum_of(&caster->camera, radius);
+    const rlf_camera *camera = &caster->camera;
+    const double across = rlf_max(camera->cx, camera->width - camera->cx) / camera->fx;
+    const double down = rlf_max(camera->cy, camera->height - camera->cy) / camera->fy;
+    const float margin = (float)(radius * rlf_max(camera->fx, camera->fy) *
+                                 rlf_length(rlf_vec3_make(across, down, 1.0)));
     /* From the eye to the world's origin, and along a block's edges. */
     const rlf_vec3 origin = rlf_mat3_mul_vec(R, rlf_scale(caster->eye, -1.0));
     const float first[3] = {(float)origin.x, (float)origin.y, (float)origin.z};
-    float edge[3][3], middle[3];
-    for (int32_t r = 0; r < 3; r++) {
-        for (int32_t k = 0; k < 3; k++) {
-            edge[r][k] = (float)(R->m[r][k] * side);
-        }
-        middle[r] = 0.5f * (edge[r][0] + edge[r][1] + edge[r][2]);
+    float edge[3][3];
+    for (int32_t k = 0; k < 9; k++) {
+        edge[k / 3][k % 3] = (float)(R->m[k / 3][k % 3] * side);
     }
     begin(caster);
     for (int32_t i = 0; i < v->high; i++) {
@@ -242,9 +217,9 @@ void map_splat(map_caster *caster)
         float corner[3], p[3];
         for (int32_t r = 0; r < 3; r++) {
             corner[r] = first[r] + (edge[r][0] * a + edge[r][1] * b + edge[r][2] * c);
-            p[r] = corner[r] + middle[r];
+            p[r] = corner[r] + 0.5f * (edge[r][0] + edge[r][1] + edge[r][2]);
         }
-        if (is_in_view(&f, p, (float)radius)) {
+        if (is_in_view(camera, p, (float)radius, margin)) {
             draw_block(caster, i, corner);
         }
     }

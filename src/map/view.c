@@ -6,7 +6,6 @@
 typedef struct view_job {
     rlf_map *map;
     const rlf_map_view *view;
-    float *clean; /* depth without what is not a depth */
 } view_job;
 
 /* The normals of one row: the caller's, or found from the depth. */
@@ -19,9 +18,9 @@ static void plane_row(const view_job *job, int32_t y, float *scratch)
     const ptrdiff_t below = (ptrdiff_t)(y + 2 < height ? y + 2 : height - 1) * width;
     const rlf_map_view *view = job->view;
     const rlf_fuse_row row = {
-        .depth = job->clean + at,
-        .above = job->clean + above,
-        .below = job->clean + below,
+        .depth = map->clean + at,
+        .above = map->clean + above,
+        .below = map->clean + below,
         .ray_x = map->ray_x + at,
         .ray_y = map->ray_y + at,
         .ray_x_above = map->ray_x + above,
@@ -53,7 +52,7 @@ static void clean_rows(void *context, int32_t begin, int32_t end, int32_t worker
     for (int32_t y = begin; y < end; y++) {
         const ptrdiff_t at = (ptrdiff_t)y * width;
         const float *depth = job->view->depth + at;
-        float *clean = job->clean + at;
+        float *clean = map->clean + at;
         for (int32_t x = 0; x < width; x++) {
             bool is_depth = (depth[x] > 0.0f) & (depth[x] < 1000.0f);
             clean[x] = is_depth ? depth[x] : 0.0f;
@@ -82,7 +81,7 @@ static void fill_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 
 void map_view_prepare(rlf_map *map, const rlf_map_view *view)
 {
-    view_job job = {.map = map, .view = view, .clean = map->clean};
+    view_job job = {.map = map, .view = view};
     rlf_parallel_for(map->def.pool, map->pinhole.height, 16, clean_rows, &job);
     rlf_parallel_for(map->def.pool, map->pinhole.height, 16, fill_rows, &job);
 }

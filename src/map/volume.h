@@ -6,7 +6,9 @@
 #ifndef RLF_MAP_VOLUME_H
 #define RLF_MAP_VOLUME_H
 
+#include "base/arena.h"
 #include "kernel/fuse.h"
+#include "math/rigid.h"
 #include "relief/map.h"
 
 /* Least and most truncation, voxels. */
@@ -17,7 +19,7 @@ typedef struct rlf_fuse_block map_block;
 
 enum { MAP_SIDE = RLF_MAP_BLOCK, MAP_VOXELS = RLF_FUSE_VOXELS, MAP_SLAB = 256 };
 
-/* Memory that grows in slabs of MAP_SLAB blocks. */
+/* Memory that grows in slabs of MAP_SLAB blocks; the list of them is of the arena. */
 typedef struct map_slabs {
     map_block **slab;
     int32_t slab_count, slab_capacity;
@@ -87,6 +89,7 @@ typedef struct map_view_planes {
 
 struct rlf_map {
     rlf_map_def def;
+    rlf_arena arena; /* all but the blocks */
     map_volume volume;
     map_journal journal;
     rlf_camera pinhole; /* the rig's depth camera without its distortion */
@@ -106,7 +109,19 @@ struct rlf_map {
     map_view_planes out;
 };
 
+static inline int32_t map_floor(double x)
+{
+    const int32_t i = (int32_t)x;
+    return x < (double)i ? i - 1 : i;
+}
+/* Along an axis, the block of a voxel. */
+static inline int32_t map_block_of(int32_t voxel)
+{
+    return (voxel - (voxel & 7)) / MAP_SIDE;
+}
+
 /* ---- blocks.c */
+void map_slabs_take(map_slabs *slabs, rlf_arena *arena, int32_t blocks);
 bool map_slabs_reserve(map_slabs *slabs, int32_t count);
 void map_slabs_free(map_slabs *slabs);
 static inline map_block *map_slabs_at(const map_slabs *slabs, int32_t i)
@@ -122,8 +137,8 @@ static inline uint64_t map_key(int32_t x, int32_t y, int32_t z)
     return (uint64_t)(uint16_t)(x + 32768) << 32 | (uint64_t)(uint16_t)(y + 32768) << 16 |
            (uint64_t)(uint16_t)(z + 32768);
 }
-bool map_volume_create(map_volume *v, int32_t capacity);
-void map_volume_destroy(map_volume *v);
+/* Its tables; map_volume_clear makes them true. Blocks are the caller's: map_slabs_free. */
+void map_volume_take(map_volume *v, rlf_arena *arena, int32_t capacity);
 void map_volume_clear(map_volume *v);
 /* -1 = none. */
 int32_t map_volume_find(const map_volume *v, int32_t x, int32_t y, int32_t z);
@@ -138,8 +153,7 @@ void map_block_look(map_volume *v, int32_t block);
 bool map_volume_sorted(const map_volume *v, int32_t *out);
 
 /* ---- journal.c */
-bool map_journal_create(map_journal *j, int32_t slot_capacity, int32_t block_capacity);
-void map_journal_destroy(map_journal *j);
+void map_journal_take(map_journal *j, rlf_arena *arena, int32_t slots, int32_t blocks);
 /* Before a frame that changes so many blocks: moves the fence when they are too many. */
 void map_journal_expect(rlf_map *map, int32_t count);
 /* Before a block is changed or removed, or after it was added. */
@@ -149,7 +163,7 @@ void map_journal_keep(rlf_map *map, int32_t block, bool is_new);
 /* Planes and least depths of a view. */
 void map_view_prepare(rlf_map *map, const rlf_map_view *view);
 
-/* ---- cell.c */
+/* ---- sample.c */
 /* The cell whose lowest corner is voxel (i, j, k) of a block; corners by bits x = 1, y = 2, z = 4.
  */
 typedef struct map_cell {
@@ -176,15 +190,49 @@ static inline float map_cell_value(const float d[8], const float in[3], float gr
     gradient[2] = b1 - b0;
     return b0 + z * (b1 - b0);
 }
+/* The block of the voxel nearest to a point, or -1; the voxel's index in it. */
+int32_t map_voxel_near(const rlf_map *map, rlf_vec3 p, int32_t *out_voxel);
 /* Grey and colour of a voxel; A = 0 when it has none. */
 void map_voxel_color(const map_block *block, int32_t voxel, uint8_t rgba[4]);
 
 /* ---- map.c */
-bool map_pose_is_sound(const rlf_pose *T);
-
-/* ---- viewpoints.c: none when one is near already, or there is no room */
+/* From a point to the middle of the block at a place, world, metres. */
+static inline rlf_vec3 map_block_way(const rlf_map *map, const int16_t place[4], rlf_vec3 from)
+{
+    const double side = map->def.voxel_m * MAP_SIDE;
+    return rlf_vec3_make((place[0] + 0.5) * side - from.x, (place[1] + 0.5) * side - from.y,
+                         (place[2] + 0.5) * side - from.z);
+}
+/* The pose becomes a viewpoint, unless one is near already, or there is no room. */
 void map_viewpoints_add(rlf_map *map, const rlf_pose *T_world_camera);
-/* Squared distance of a block's middle from a point, m^2. */
-double map_block_distance2(const rlf_map *map, int32_t block, rlf_vec3 p);
+
+/* ---- mark.c */
+/* Fills map->seen with the blocks near the surfaces that the view's planes show; makes those that
+ * there are not yet. When the memory is full, the farthest leave. */
+void map_mark(rlf_map *map, const rlf_pose *T_world_camera, rlf_map_change *change);
+
+/* ---- predict.c, splat.c: a view of the volume; what is drawn says where each ray begins */
+#define MAP_TILE 8 /* pixels */
+
+/* A camera that casts: world to voxels. */
+typedef struct map_caster {
+    const rlf_map *map;
+    rlf_camera camera;
+    rlf_mat3 R_world_camera, R_camera_world;
+    rlf_vec3 eye; /* world, metres */
+    /* In voxels: the eye, the way of pixel (0, 0)'s ray for a metre of depth, and what it gains
+     * from pixel to pixel. */
+    float at[3], way[3], way_x[3], way_y[3];
+    float to_eighth[8][3]; /* from a block's corner to the middles of its eighths, camera frame */
+    float step[3][3];      /* by voxels along x, y, z, camera frame, metres */
+    map_view_planes *out;
+    float per_metre; /* voxels */
+    int32_t tile_columns;
+    float slack; /* metres behind a drawn voxel where its surface still may be */
+} map_caster;
+
+/* Draws the blocks with a surface: farthest depth per tile, and into the plane of depth, per pixel,
+ * one over the depth at which its ray may meet the nearest surface; 0 where there is none. */
+void map_splat(map_caster *caster);
 
 #endif

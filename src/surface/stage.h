@@ -8,7 +8,6 @@
 #include "kernel/kernel.h"
 #include "surface/background/state.h"
 #include "surface/depth/state.h"
-#include "surface/motion/ego_motion.h"
 #include "surface/motion/state.h"
 #include "surface/normals/state.h"
 #include "surface/thickness/state.h"

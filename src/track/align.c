@@ -1,6 +1,7 @@
 /* Coarse to fine alignment of a frame's points with a prediction. */
+#include "math/eigen.h"
+#include "math/rigid.h"
 #include "track/tracker.h"
-#include "track/ways.h"
 
 #include <string.h>
 
@@ -12,6 +13,19 @@
 /* Share of the whole information: a thirtieth of the least that a direction must have, so that it
  * costs the determined ones one thirtieth of a step. */
 #define DAMPING 3e-5
+
+#define GATE_M 0.1        /* farther points do not count: it bounds the motion between frames */
+#define LEAST_OVERLAP 0.3 /* share of the points that must lie on the prediction */
+#define LEAST_CONSTRAINT 0.001 /* of all information, for a way; with less it is weak */
+#define SHARED 8.0 /* 64 points in a square share an error: a mean is so many times worse */
+/* Where depth is that good (a quarter of a voxel) brightness says nothing; where it is twice as
+ * bad, all that it can. */
+#define NEEDED_M 0.0015
+
+/* Four pixels lie on one surface when their depths are within so many sigma, or within the slope of
+ * a surface at a low angle, 80 degrees: so many times a pixel's width there. */
+#define SAME_SIGMAS 4.0
+#define SAME_SLOPE 5.67
 
 /* Every so many points, and so many rounds. */
 typedef struct level {
@@ -32,13 +46,178 @@ typedef struct align_job {
     double sigma; /* of depth, in expected deviations: the least so far */
 } align_job;
 
+/* ---- ways ---- */
+
+/* The six ways in which a camera can move, and how much is known about each: motions (rotation
+ * vector, then translation) that are one metre long when a turn counts by how far it moves what is
+ * `reach` away, at right angles to each other. What was measured says something of each by itself:
+ * whoever errs about one of them need not err about another. */
+typedef struct track_ways {
+    double reach;          /* metres */
+    double way[6][6];      /* of each: a motion */
+    double information[6]; /* about each, m^-2; in no order */
+    double pull[6];        /* the right side along each: pull / information is how far to go */
+    double sigma;          /* of what was measured, in expected deviations */
+    bool asks_grey;        /* depth leaves a way open to brightness */
+} track_ways;
+
+enum { EVERY = 4 }; /* point along rows and columns tells where they lie */
+
+/* How far the points are away, RMS, metres; > 0. */
+static double reach_of(const track_points *points)
+{
+    double count = 0.0, sum = 0.0;
+    for (int32_t y = 0; y < points->height; y += EVERY) {
+        for (int32_t x = 0; x < points->width; x += EVERY) {
+            const size_t i = (size_t)y * (size_t)points->width + (size_t)x;
+            const rlf_vec3 p = {(double)points->x[i], (double)points->y[i], (double)points->z[i]};
+            sum += p.z > 0.0 ? rlf_dot(p, p) : 0.0;
+            count += p.z > 0.0;
+        }
+    }
+    return count > 0.0 ? sqrt(sum / count) : 1.0;
+}
+
+/* The component of a motion along a way, metres. */
+static double along(const track_ways *ways, int k, const double motion[6])
+{
+    const double square = ways->reach * ways->reach;
+    double sum = 0.0;
+    for (int i = 0; i < 6; i++) {
+        sum += (i < 3 ? square : 1.0) * ways->way[k][i] * motion[i];
+    }
+    return sum;
+}
+
+/* Expected error along a way, metres. */
+static double error_of(const track_ways *ways, int k)
+{
+    return SHARED * ways->sigma / sqrt(rlf_max(ways->information[k], 1e-12));
+}
+
+/* The information about two motions, and what is said of one. */
+static double between(const double a[21], const double p[6], const double q[6])
+{
+    double sum = 0.0;
+    for (int i = 0; i < 36; i++) {
+        sum += p[i / 6] * track_entry(a, i / 6, i % 6) * q[i % 6];
+    }
+    return sum;
+}
+
+static double pull_along(const double way[6], const double b[6])
+{
+    double sum = 0.0;
+    for (int i = 0; i < 6; i++) {
+        sum += way[i] * b[i];
+    }
+    return sum;
+}
+
+/* Turns the ways so that no two of them have to do with each other in `a`, which is destroyed. */
+static void part(track_ways *w, double a[6][6])
+{
+    double vectors[6][6], old[6][6], pull[6];
+    memcpy(old, w->way, sizeof(old));
+    memcpy(pull, w->pull, sizeof(pull));
+    math_eigen(a, 6, w->information, vectors);
+    for (int k = 0; k < 6; k++) {
+        w->pull[k] = 0.0;
+        memset(w->way[k], 0, sizeof(w->way[k]));
+        for (int i = 0; i < 6; i++) {
+            w->pull[k] += vectors[i][k] * pull[i];
+            for (int r = 0; r < 6; r++) {
+                w->way[k][r] += vectors[i][k] * old[i][r];
+            }
+        }
+    }
+}
+
+/* sigma: of what depth measured, in expected deviations. */
+static track_ways depth_ways(const track_sums *sums, double reach, double sigma)
+{
+    track_ways w = {.reach = reach, .sigma = sigma};
+    double a[6][6];
+    for (int k = 0; k < 6; k++) {
+        w.way[k][k] = k < 3 ? 1.0 / reach : 1.0;
+        w.pull[k] = w.way[k][k] * sums->depth.b[k];
+    }
+    for (int i = 0; i < 36; i++) {
+        a[i / 6][i % 6] = between(sums->depth.a, w.way[i / 6], w.way[i % 6]);
+    }
+    part(&w, a);
+    return w;
+}
+
+/* Depth's own, then those of depth and brightness together: brightness says something only of ways
+ * that depth leaves open. */
+static track_ways find_ways(const track_sums *sums, double reach, double sigma)
+{
+    track_ways w = depth_ways(sums, reach, sigma);
+    double open[6], a[6][6] = {{0}};
+    for (int k = 0; k < 6; k++) {
+        open[k] = rlf_clamp(error_of(&w, k) / NEEDED_M - 1.0, 0.0, 1.0);
+        w.asks_grey = w.asks_grey || open[k] > 0.0;
+        w.pull[k] += open[k] * pull_along(w.way[k], sums->grey.b);
+        a[k][k] = w.information[k];
+    }
+    if (!w.asks_grey || !(sums->grey_weight > 0.0)) {
+        return w;
+    }
+    for (int i = 0; i < 36; i++) {
+        const double both = open[i / 6] * open[i % 6];
+        if (both > 0.0) {
+            a[i / 6][i % 6] += both * between(sums->grey.a, w.way[i / 6], w.way[i % 6]);
+        }
+    }
+    part(&w, a);
+    return w;
+}
+
+/* ---- rounds ---- */
+
+/* Of each 4 x 4 depth pixels the 2 x 2 in the middle, to a point. */
+static void fill_row(const rlf_tracker *t, const rlf_track_view *view, int32_t row)
+{
+    const track_points *points = &t->points;
+    const rlf_rig *rig = &t->def.rig;
+    const size_t width = (size_t)rig->depth.width;
+    const double slope = SAME_SLOPE / rlf_min(rig->depth.fx, rig->depth.fy);
+    for (int32_t column = 0; column < points->width; column++) {
+        const size_t to = (size_t)row * (size_t)points->width + (size_t)column;
+        const size_t first = (4 * (size_t)row + 1) * width + 4 * (size_t)column + 1;
+        const size_t at[4] = {first, first + 1, first + width, first + width + 1};
+        double x = 0.0, y = 0.0, z = 0.0, grey = 0.0, least = 1e9, most = 0.0;
+        bool is_whole = true, is_lit = view->grey != NULL;
+        for (int k = 0; k < 4; k++) {
+            const double depth = (double)view->depth[at[k]];
+            const bool is_room = view->is_static == NULL || view->is_static[at[k]] != 0;
+            is_whole =
+                is_whole && is_room && depth >= rig->depth_min_m && depth <= rig->depth_max_m;
+            x += 0.25 * (double)t->ray_x[at[k]] * depth;
+            y += 0.25 * (double)t->ray_y[at[k]] * depth;
+            z += 0.25 * depth;
+            least = rlf_min(least, depth);
+            most = rlf_max(most, depth);
+            is_lit = is_lit && view->grey[at[k]] != 0;
+            grey += is_lit ? 0.25 * view->grey[at[k]] : 0.0;
+        }
+        const double sigma = rlf_depth_noise_sigma(&rig->noise, z);
+        const bool is_one = is_whole && most - least <= SAME_SIGMAS * sigma + slope * z;
+        points->x[to] = is_one ? (float)x : 0.0f;
+        points->y[to] = is_one ? (float)y : 0.0f;
+        points->z[to] = is_one ? (float)z : 0.0f;
+        points->sigma[to] = is_one ? (float)(0.5 * sigma) : 0.0f;
+        points->grey[to] = is_one && is_lit ? (uint8_t)(grey + 0.5) : 0;
+    }
+}
+
 static void fill_points(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     const align_job *job = context;
-    const rlf_tracker *t = job->tracker;
     (void)worker;
     for (int32_t row = begin; row < end; row++) {
-        track_points_row(&t->points, &t->def.rig, t->ray_x, t->ray_y, job->view, row);
+        fill_row(job->tracker, job->view, row);
     }
 }
 
@@ -58,25 +237,21 @@ static double median_of(const track_sums *sums)
 /* Rotation vector and translation of a pose. */
 static void motion_of(const rlf_pose *T, double x[6])
 {
-    const double sign = T->q.w < 0.0 ? -1.0 : 1.0;
-    const rlf_vec3 axis = {sign * T->q.x, sign * T->q.y, sign * T->q.z};
-    const double half = rlf_length(axis);
-    const double scale = half > 1e-9 ? 2.0 * rlf_atan2(half, sign * T->q.w) / half : 2.0;
-    const double all[6] = {scale * axis.x, scale * axis.y, scale * axis.z, T->p.x, T->p.y, T->p.z};
+    const rlf_vec3 turn = math_rotation_vector(T->q);
+    const double all[6] = {turn.x, turn.y, turn.z, T->p.x, T->p.y, T->p.z};
     memcpy(x, all, sizeof(all));
 }
 
 /* The next small motion: along a way that is not determined back to where the prediction was. */
-static void solve(const track_sums *sums, const track_ways *ways, double least, const rlf_pose *T,
-                  double x[6])
+static void solve(const track_sums *sums, const track_ways *ways, const rlf_pose *T, double x[6])
 {
     double moved[6];
     motion_of(T, moved);
     memset(x, 0, 6 * sizeof(double));
     for (int k = 0; k < 6; k++) {
         const double known = ways->information[k];
-        const double step = known < least * sums->information
-                                ? -track_along(ways, k, moved)
+        const double step = known < LEAST_CONSTRAINT * sums->information
+                                ? -along(ways, k, moved)
                                 : ways->pull[k] / (known + DAMPING * sums->information);
         for (int r = 0; r < 6; r++) {
             x[r] += step * ways->way[k][r];
@@ -90,7 +265,7 @@ static bool rests(const track_ways *ways, const rlf_pose *T)
     double moved[6];
     motion_of(T, moved);
     for (int k = 0; k < 6; k++) {
-        const double way = track_along(ways, k, moved), error = track_error(ways, k);
+        const double way = along(ways, k, moved), error = error_of(ways, k);
         if (way > error || way < -error) {
             return false;
         }
@@ -118,29 +293,25 @@ static void limit(track_gate *gate, const track_sums *sums)
     gate->grey = sums->grey_weight > 0.0 ? sums->grey_residual / sums->grey_weight : 0.0;
 }
 
-static track_sums sums_of(const align_job *job, const level *l)
-{
-    return track_sums_of(&job->tracker->points, l->stride, job->prediction, &job->T, &job->gate);
-}
-
 /* By the best fit of depth so far: brightness that pulls depth off must not open it further. */
 static track_ways ways_of(align_job *job, const track_sums *sums)
 {
     job->sigma = rlf_min(job->sigma, sqrt(sums->squared / rlf_max(sums->weight, 1e-12)));
-    return track_ways_of(sums, job->reach, rlf_max(job->sigma, LEAST_SIGMA));
+    return find_ways(sums, job->reach, rlf_max(job->sigma, LEAST_SIGMA));
 }
 
 /* Rounds of one level. */
-static bool align_level(align_job *job, const level *l, double least, track_sums *sums)
+static bool align_level(align_job *job, const level *l, track_sums *sums)
 {
     for (int32_t round = 0; round < l->rounds; round++) {
-        *sums = sums_of(job, l);
+        *sums =
+            track_sums_of(&job->tracker->points, l->stride, job->prediction, &job->T, &job->gate);
         if (sums->matched * l->stride * l->stride < LEAST_POINTS || !(sums->information > 0.0)) {
             return false;
         }
         double x[6];
         const track_ways ways = ways_of(job, sums);
-        solve(sums, &ways, least, &job->T, x);
+        solve(sums, &ways, &job->T, x);
         if (!move(&job->T, x)) {
             return false;
         }
@@ -158,8 +329,8 @@ static bool align_level(align_job *job, const level *l, double least, track_sums
 }
 
 /* What the sums at the end say about the pose. */
-static void judge(const rlf_tracker *t, const track_sums *sums, const track_ways *ways,
-                  const rlf_prediction *prediction, rlf_track_result *out)
+static void judge(const track_sums *sums, const track_ways *ways, const rlf_prediction *prediction,
+                  rlf_track_result *out)
 {
     int weakest = 0;
     for (int k = 1; k < 6; k++) {
@@ -172,17 +343,9 @@ static void judge(const rlf_tracker *t, const track_sums *sums, const track_ways
     out->overlap = sums->tried > 0 ? (double)sums->matched / sums->tried : 0.0;
     out->rms_sigma = sqrt(sums->squared / rlf_max(sums->weight, 1e-12));
     out->point_count = sums->tried;
-    out->health = out->overlap < t->def.least_overlap || sums->matched < LEAST_POINTS
-                      ? RLF_TRACK_LOST
-                  : out->constraint < t->def.least_constraint ? RLF_TRACK_WEAK
-                                                              : RLF_TRACK_GOOD;
-}
-
-static bool is_pose(const rlf_pose *T)
-{
-    const rlf_quat q = T->q;
-    const double length = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-    return rlf_vec3_is_finite(T->p) && length > 0.98 && length < 1.02;
+    out->health = out->overlap < LEAST_OVERLAP || sums->matched < LEAST_POINTS ? RLF_TRACK_LOST
+                  : out->constraint < LEAST_CONSTRAINT                         ? RLF_TRACK_WEAK
+                                                                               : RLF_TRACK_GOOD;
 }
 
 rlf_result rlf_tracker_align(rlf_tracker *tracker, const rlf_track_view *view,
@@ -193,27 +356,28 @@ rlf_result rlf_tracker_align(rlf_tracker *tracker, const rlf_track_view *view,
                     start != NULL && out != NULL)) {
         return RLF_ERROR_INVALID;
     }
-    if (!is_pose(start) || !is_pose(&prediction->T_world_camera)) {
+    if (!math_pose_is_sound(start) || !math_pose_is_sound(&prediction->T_world_camera)) {
         return rlf_fail(RLF_ERROR_INVALID, "track: the pose to start from is not a pose");
     }
     align_job job = {.tracker = tracker, .view = view, .prediction = prediction};
     rlf_parallel_for(tracker->def.pool, tracker->points.height, 4, fill_points, &job);
     const rlf_pose T_camera_world = rlf_pose_invert(&prediction->T_world_camera);
     job.T = rlf_pose_mul(&T_camera_world, start);
-    job.gate = (track_gate){.metres = tracker->def.gate_m, .cut = 1e9};
+    job.gate = (track_gate){.metres = GATE_M, .cut = 1e9};
     *out = (rlf_track_result){.T_world_camera = *start, .weak_way = {0, 0, 1}};
-    track_sums sums = {.tried = 0};
     job.sigma = 1e9;
-    job.reach = track_reach_of(&tracker->points);
-    sums = sums_of(&job, &levels[0]); /* one that is far off pulls in no round */
+    job.reach = reach_of(&tracker->points);
+    /* One that is far off pulls in no round. */
+    track_sums sums =
+        track_sums_of(&tracker->points, levels[0].stride, prediction, &job.T, &job.gate);
     limit(&job.gate, &sums);
     for (int i = 0; i < LEVELS; i++) {
-        if (!align_level(&job, &levels[i], tracker->def.least_constraint, &sums)) {
+        if (!align_level(&job, &levels[i], &sums)) {
             return RLF_OK;
         }
     }
     const track_ways ways = ways_of(&job, &sums);
-    judge(tracker, &sums, &ways, prediction, out);
+    judge(&sums, &ways, prediction, out);
     if (out->health == RLF_TRACK_LOST) {
         return RLF_OK;
     }

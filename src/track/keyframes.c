@@ -149,7 +149,7 @@ int32_t rlf_tracker_recall(rlf_tracker *tracker, const rlf_track_view *view, rlf
 static void keep(rlf_tracker *tracker, const rlf_camera *camera, const float *depth,
                  const uint8_t *grey, const rlf_pose *T)
 {
-    if (tracker->keyframe_count >= tracker->def.keyframe_max) {
+    if (tracker->keyframe_count >= TRACK_KEYFRAMES) {
         return;
     }
     track_keyframe *next = &tracker->keyframes[tracker->keyframe_count];

@@ -1,7 +1,9 @@
 /* Point to plane residuals (Chen and Medioni 1991), sixteen points at a time. */
-#include "track/normal_equations.h"
+#include "track/tracker.h"
 
 #include "kernel/kernel.h"
+
+#include <stddef.h>
 
 /* Metres per square metre of depth: errors that neighbours share, so that no mean takes them out. A
  * sensor that measures disparity has them grow with the square. */
@@ -262,12 +264,7 @@ track_sums track_sums_of(const track_points *points, int32_t stride,
     for (int32_t k = 0; k < TERMS * LANES; k++) {
         total[k / LANES] += sum[k / LANES][k % LANES];
     }
-    memcpy(&out.depth, total, sizeof(out.depth));
-    memcpy(&out.grey, total + GREY, sizeof(out.grey));
-    out.information = total[INFORMATION];
-    out.squared = total[SQUARED];
-    out.weight = total[WEIGHT];
-    out.grey_residual = total[GREY_RESIDUAL];
-    out.grey_weight = total[GREY_WEIGHT];
+    _Static_assert(offsetof(track_sums, tried) == sizeof(total), "the sums are in TERMS' order");
+    memcpy(&out, total, sizeof(total));
     return out;
 }

@@ -162,70 +162,6 @@ static void flow_residuals_are_distances(void **state)
     }
 }
 
-/* The definition: pixels that are the region's, and those of them that are where they were. */
-static void count_rest(const rlf_kernel_rest_in *in, int32_t out[2])
-{
-    out[0] = out[1] = 0;
-    for (int32_t y = in->y0; y < in->y1; y += in->stride) {
-        for (int32_t x = in->x0; x < in->x1; x += in->stride) {
-            int32_t i = y * in->width + x;
-            float rx = in->ray_x[i], ry = in->ray_y[i], step = in->depth[i] - in->before[i];
-            float along = in->normal[0][i] * rx + in->normal[1][i] * ry + in->normal[2][i];
-            bool is = in->label[i] == in->own && in->reason[i] == RLF_REASON_OK;
-            bool near = fabsf(step) <= 3.0f * 1.41421356f * in->noise.c0 &&
-                        step * step * (rx * rx + ry * ry + 1.0f) < in->reach * in->reach;
-            out[0] += is;
-            out[1] += is && along < 0.0f && in->before[i] > 0.0f && near;
-        }
-    }
-}
-
-/* Rectangles at every place of an image, at its right side too, with many strides. */
-static void rest_count_is_its_definition(void **state)
-{
-    (void)state;
-    enum { WIDTH = 45, HEIGHT = 9, COUNT = WIDTH * HEIGHT, OWN = 3 };
-    static float value[7][COUNT]; /* depth, before, normal, rays */
-    static int32_t label[COUNT];
-    static uint8_t reason[COUNT];
-    analytic_random r = {17};
-    for (int32_t i = 0; i < COUNT; i++) {
-        label[i] = random_uniform(&r) < 0.8 ? OWN : 2;
-        reason[i] = random_uniform(&r) < 0.8 ? RLF_REASON_OK : RLF_REASON_FILLED;
-        value[0][i] = 1.0f + (float)random_uniform(&r);
-        bool was_seen = random_uniform(&r) < 0.8;
-        value[1][i] = was_seen ? value[0][i] + 0.02f * (float)(random_uniform(&r) - 0.5) : 0.0f;
-        for (int k = 2; k < 7; k++) {
-            value[k][i] = (float)(random_uniform(&r) - 0.5);
-        }
-        value[4][i] = random_uniform(&r) < 0.8 ? -1.0f : 1.0f;
-    }
-    rlf_kernel_rest_in in = {.label = label,
-                             .reason = reason,
-                             .depth = value[0],
-                             .normal = {value[2], value[3], value[4]},
-                             .ray_x = value[5],
-                             .ray_y = value[6],
-                             .before = value[1],
-                             .width = WIDTH,
-                             .y0 = 1,
-                             .y1 = HEIGHT - 1,
-                             .own = OWN,
-                             .noise = {0.0015f, 0.0f, 0.0f},
-                             .reach = 0.0075f};
-    for (in.stride = 1; in.stride < 20; in.stride += in.stride < 5 ? 1 : 7) {
-        for (in.x0 = 0; in.x0 < WIDTH; in.x0 += 3) {
-            for (in.x1 = in.x0; in.x1 <= WIDTH; in.x1++) {
-                int32_t samples, inliers, expected[2];
-                rlf_kernel_rest_count(&in, &samples, &inliers);
-                count_rest(&in, expected);
-                assert_int_equal(samples, expected[0]);
-                assert_int_equal(inliers, expected[1]);
-            }
-        }
-    }
-}
-
 /* What chords of a region are cut in, of short and long rows. */
 static void knots_are_their_definition(void **state)
 {
@@ -261,7 +197,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(spread_row_is_its_definition),
         cmocka_unit_test(flow_row_is_its_definition),
-        cmocka_unit_test(rest_count_is_its_definition),
         cmocka_unit_test(knots_are_their_definition),
         cmocka_unit_test(flow_residuals_are_distances),
     };

@@ -142,7 +142,6 @@ static inline rlf_map *mapped_room_map(mapped_room *room)
     def.rig = room->rig;
     def.voxel_m = 0.02;
     def.memory_mb = 128;
-    def.keep_color = false;
     def.blocks_per_frame = 0;
     if (rlf_map_create(&def, &map) == RLF_OK) {
         mapped_room_fuse(room, map, rlf_vec3_make(0.2, 0.0, -0.9));

@@ -255,7 +255,6 @@ static inline bool make_stages(void)
     valid.map_def.memory_mb = 8;
     valid.tracker_def = rlf_tracker_def_default();
     valid.tracker_def.rig = valid.rig;
-    valid.tracker_def.keyframe_max = 4;
     static const rlf_model_vertex corners[3] = {
         {.position = {0, 0, 0}}, {.position = {1, 0, 0}}, {.position = {0, 1, 0}}};
     static const int32_t triangle[3] = {0, 1, 2};

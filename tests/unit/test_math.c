@@ -10,6 +10,7 @@
 
 #include "math/eigen.h"
 #include "math/inverse.h"
+#include "math/rigid.h"
 
 #include <math.h>
 
@@ -91,6 +92,37 @@ static void inverse_of_a_covariance(void **state)
     }
 }
 
+/* Planes all round tell a motion; those of a tunnel leave the way along it open. */
+static void rigid_motion_of_planes(void **state)
+{
+    (void)state;
+    static const double moved[6] = {0.01, -0.02, 0.03, 0.004, -0.005, 0.006};
+    for (int open = 0; open < 2; open++) {
+        math_rigid_sums sums = {.weight = 0.0};
+        for (int k = 0; k < 27; k++) {
+            const rlf_vec3 p = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
+            const rlf_vec3 n = rlf_normalize(
+                rlf_vec3_make(k % 4 - 1.5, k % 5 - 2.2, open != 0 ? 0.0 : k % 7 - 3.1));
+            const rlf_vec3 turn = rlf_cross(p, n);
+            const double off = n.x * moved[0] + n.y * moved[1] + n.z * moved[2] +
+                               turn.x * moved[3] + turn.y * moved[4] + turn.z * moved[5];
+            math_rigid_add(&sums, n, turn, off, 1.0 + k);
+        }
+        double x[6];
+        assert_int_equal(math_rigid_solve(&sums, 1e-9, x), open == 0);
+        assert_true(fabs(sums.weight - 27 * 14) < 1e-9);
+        for (int k = 0; k < 6 && open == 0; k++) {
+            assert_true(fabs(x[k] - moved[k]) < 1e-12);
+        }
+    }
+    for (int k = 0; k < 20; k++) {
+        const rlf_vec3 v = rlf_scale(rlf_vec3_make(0.2, -0.1, 0.05), 0.65 * k);
+        const rlf_quat q = rlf_quat_from_rotation_vector(v), other = {-q.x, -q.y, -q.z, -q.w};
+        assert_true(rlf_length(rlf_sub(math_rotation_vector(q), v)) < 1e-12);
+        assert_true(rlf_length(rlf_sub(math_rotation_vector(other), v)) < 1e-12);
+    }
+}
+
 static void model_matrix_scales_then_rotates_then_translates(void **state)
 {
     (void)state;
@@ -137,6 +169,7 @@ int main(void)
         cmocka_unit_test(inverse_of_a_matrix),
         cmocka_unit_test(eigenvectors_are_only_scaled),
         cmocka_unit_test(inverse_of_a_covariance),
+        cmocka_unit_test(rigid_motion_of_planes),
         cmocka_unit_test(model_matrix_scales_then_rotates_then_translates),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

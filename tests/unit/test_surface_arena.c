@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "base/guard.h"
-#include "surface/arena.h"
+#include "base/arena.h"
 
 enum { COUNT = 5000 };
 

@@ -17,7 +17,6 @@ rlf_result map_memory_open(const rlf_rig *rig, bool has_residual, map_memory *ou
 {
     rlf_map_def def = rlf_map_def_default();
     def.rig = *rig;
-    def.keep_color = false;
     *out = (map_memory){.camera = rig->depth,
                         .count = rig->depth.width * rig->depth.height,
                         .has_residual = has_residual};

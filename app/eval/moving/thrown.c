@@ -82,7 +82,6 @@ static rlf_result make_map(throwing *t)
     def.rig.depth_max_m = 8.0;
     def.voxel_m = VOXEL_M;
     def.blocks_per_frame = 0;
-    def.keep_color = false;
     rlf_result result = rlf_map_create(&def, &t->map);
     for (int32_t i = 0; i < EYES * 3 * TURNS && result == RLF_OK; i++) {
         double yaw = 2.0 * RLF_PI / TURNS * (i % TURNS);

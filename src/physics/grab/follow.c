@@ -2,7 +2,7 @@
  * along the normals of its outline at the edge (Harris 1990, "RAPID"), robust least squares. It is
  * told from how the hand looked when it grabbed, so that no error adds up; the flow of the surface
  * decides only what neither shows. */
-#include "math/solve_six.h"
+#include "math/rigid.h"
 #include "physics/grab/hand.h"
 
 #define PASSES 4
@@ -17,28 +17,19 @@
 #define SEEN_SHARE 0.25
 
 typedef struct follow_fit {
-    double A[6][6], b[6]; /* of turn and shift about `pivot`, grid frame */
+    math_rigid_sums sums; /* about `pivot`, grid frame */
     rlf_vec3 pivot;
-    double soft; /* of residuals, metres */
-    double weight;
+    double soft;   /* of residuals, metres */
     rlf_vec3 flow; /* sum of velocities, weighted */
     double flow_weight;
     double seen; /* points found again */
 } follow_fit;
 
-static void add_row(follow_fit *fit, rlf_vec3 point, rlf_vec3 n, double residual, double weight)
+static void add_row(follow_fit *fit, rlf_vec3 point, rlf_vec3 n, double residual)
 {
-    rlf_vec3 turn = rlf_cross(rlf_sub(point, fit->pivot), n);
-    const double row[6] = {turn.x, turn.y, turn.z, n.x, n.y, n.z};
-    double soft = 1.0 + residual * residual / (fit->soft * fit->soft);
-    weight /= soft * soft;
-    for (int32_t i = 0; i < 6; i++) {
-        for (int32_t k = 0; k <= i; k++) {
-            fit->A[i][k] += weight * row[i] * row[k];
-        }
-        fit->b[i] += weight * row[i] * residual;
-    }
-    fit->weight += weight;
+    const double soft = 1.0 + residual * residual / (fit->soft * fit->soft);
+    const rlf_vec3 turn = rlf_cross(rlf_sub(point, fit->pivot), n);
+    math_rigid_add(&fit->sums, n, turn, residual, 1.0 / (soft * soft));
 }
 
 static void add_point(follow_fit *fit, const rlf_grid *grid, const rlf_pose *T_grid_hand,
@@ -52,7 +43,7 @@ static void add_point(follow_fit *fit, const rlf_grid *grid, const rlf_pose *T_g
     }
     double residual = rlf_dot(cell.normal, rlf_sub(cell.point, p));
     if (residual < FAR_M && residual > -FAR_M) {
-        add_row(fit, p, cell.normal, residual, 1.0);
+        add_row(fit, p, cell.normal, residual);
         fit->flow = rlf_add(fit->flow, cell.velocity);
         fit->flow_weight += 1.0;
         fit->seen += 1.0;
@@ -99,7 +90,7 @@ static void add_rim(follow_fit *fit, const rlf_grid *grid, const rlf_pose *T_gri
     }
     double nu = rim->along[0], nv = rim->along[1];
     rlf_vec3 n = rlf_vec3_make(nu, nv, -(nu * p.x + nv * p.y) / p.z);
-    add_row(fit, p, n, shift * rim->along[rim->is_of_column] * footprint, 1.0);
+    add_row(fit, p, n, shift * rim->along[rim->is_of_column] * footprint);
 }
 
 static void collect(follow_fit *fit, const rlf_grid *grid, const phys_grab *grab,
@@ -114,35 +105,32 @@ static void collect(follow_fit *fit, const rlf_grid *grid, const phys_grab *grab
     }
 }
 
+/* The turn from a to b over dt, rad/s. */
+static rlf_vec3 turn_between(rlf_quat a, rlf_quat b, double dt)
+{
+    return rlf_scale(math_rotation_vector(rlf_quat_mul(b, rlf_quat_conjugate(a))), 1.0 / dt);
+}
+
 /* Weighs in that the hand moved as predicted. */
 static void add_prediction(follow_fit *fit, const rlf_pose *T, const rlf_pose *predicted,
                            double radius)
 {
-    double weight = FLOW_SHARE * fit->weight + 1e-3;
-    rlf_quat turn = rlf_quat_mul(predicted->q, rlf_quat_conjugate(T->q));
-    double sign = turn.w < 0.0 ? -2.0 : 2.0;
-    rlf_vec3 shift = rlf_sub(predicted->p, T->p);
-    const double back[6] = {sign * turn.x, sign * turn.y, sign * turn.z, shift.x, shift.y, shift.z};
+    const double weight = FLOW_SHARE * fit->sums.weight + 1e-3;
+    const rlf_vec3 turn = turn_between(T->q, predicted->q, 1.0);
+    const rlf_vec3 shift = rlf_sub(predicted->p, T->p);
+    const double back[6] = {shift.x, shift.y, shift.z, turn.x, turn.y, turn.z};
     for (int32_t i = 0; i < 6; i++) {
-        double w = i < 3 ? weight * radius * radius : weight;
-        fit->A[i][i] += w;
-        fit->b[i] += w * back[i];
+        const double w = i < 3 ? weight : weight * radius * radius;
+        fit->sums.a[i][i] += w;
+        fit->sums.b[i] += w * back[i];
     }
 }
 
 static void move(rlf_pose *T, const double step[6])
 {
-    rlf_vec3 turn = rlf_vec3_make(step[0], step[1], step[2]);
+    rlf_vec3 turn = rlf_vec3_make(step[3], step[4], step[5]);
     T->q = rlf_quat_normalize(rlf_quat_mul(rlf_quat_from_rotation_vector(turn), T->q));
-    T->p = rlf_add(T->p, rlf_vec3_make(step[3], step[4], step[5]));
-}
-
-/* The turn from a to b over dt, rad/s; for small turns. */
-static rlf_vec3 turn_between(rlf_quat a, rlf_quat b, double dt)
-{
-    rlf_quat turn = rlf_quat_mul(b, rlf_quat_conjugate(a));
-    double scale = (turn.w < 0.0 ? -2.0 : 2.0) / dt;
-    return rlf_vec3_make(scale * turn.x, scale * turn.y, scale * turn.z);
+    T->p = rlf_add(T->p, rlf_vec3_make(step[0], step[1], step[2]));
 }
 
 bool grab_follow_hand(const grid_query *query, phys_grab *grab, double dt)
@@ -151,7 +139,7 @@ bool grab_follow_hand(const grid_query *query, phys_grab *grab, double dt)
     rlf_pose before = rlf_pose_mul(&query->T_grid_world, &grab->T_world_hand), T = before;
     rlf_vec3 v = rlf_rotate(query->T_grid_world.q, grab->v);
     rlf_vec3 w = rlf_rotate(query->T_grid_world.q, grab->w);
-    const double on[6] = {w.x * dt, w.y * dt, w.z * dt, v.x * dt, v.y * dt, v.z * dt};
+    const double on[6] = {v.x * dt, v.y * dt, v.z * dt, w.x * dt, w.y * dt, w.z * dt};
     move(&T, on);
     rlf_pose predicted = T;
     double radius = 0.5 * GRID_THIN_M;
@@ -166,7 +154,7 @@ bool grab_follow_hand(const grid_query *query, phys_grab *grab, double dt)
             predicted.p = rlf_mad(before.p, fit.flow, dt / rlf_max(fit.flow_weight, 1.0));
         }
         add_prediction(&fit, &T, &predicted, radius);
-        math_solve_six(fit.A, fit.b, step);
+        (void)math_rigid_solve(&fit.sums, 0.0, step);
         move(&T, step);
     }
     rlf_pose T_world_hand = rlf_pose_mul(&grid->T_world_grid, &T);

@@ -1,6 +1,8 @@
 /* Predict, align, accept; after a lost track, poses that looked alike. */
 #include "pipeline/moving/camera_pose.h"
 
+#include "camera/pixels.h"
+
 #include <string.h>
 
 #define SMALLER 4
@@ -20,9 +22,7 @@ rlf_result camera_pose_open(camera_pose *c, const rlf_rig *rig, rlf_pool *pool)
     rlf_tracker_def def = rlf_tracker_def_default();
     def.rig = *rig;
     def.pool = pool;
-    rlf_camera camera = rig->depth;
-    camera.distortion_model = RLF_DISTORTION_NONE;
-    memset(camera.distortion, 0, sizeof(camera.distortion));
+    const rlf_camera camera = camera_pinhole(&rig->depth);
     c->camera = rlf_camera_decimate(&camera, SMALLER);
     c->camera.cx -= 0.5 * (SMALLER - 1) / SMALLER;
     c->camera.cy -= 0.5 * (SMALLER - 1) / SMALLER;
@@ -177,17 +177,9 @@ void camera_pose_mark_static(camera_pose *c, const rlf_surface *s, uint8_t *is_s
     const rlf_prediction *p = &c->prediction;
     memset(is_static, 1, (size_t)s->width * (size_t)s->height);
     for (int32_t i = 0; c->has_prediction && i < s->width * s->height; i++) {
-        if (!(s->depth[i] > 0.0f)) {
-            continue;
-        }
-        double u, v;
         const rlf_vec3 q = rlf_surface_point(s, i);
-        if (!rlf_camera_project(&p->camera, q, &u, &v) || u < 0.0 || v < 0.0 ||
-            u + 0.5 >= p->camera.width || v + 0.5 >= p->camera.height) {
-            continue;
-        }
-        const double room =
-            (double)p->depth[(int32_t)(v + 0.5) * p->camera.width + (int32_t)(u + 0.5)];
+        const int32_t pixel = q.z > 0.0 ? camera_pixel_of(&p->camera, q) : -1;
+        const double room = pixel >= 0 ? (double)p->depth[pixel] : 0.0;
         const double nearer =
             rlf_max(IN_FRONT_M, IN_FRONT_SIGMAS * rlf_depth_noise_sigma(&c->noise, q.z));
         is_static[i] = !(room > 0.0 && q.z < room - nearer);

@@ -1,6 +1,8 @@
 /* Places that were free, or hidden by what has left, are not fused yet. */
 #include "pipeline/moving/settled.h"
 
+#include "camera/pixels.h"
+
 #include <string.h>
 
 #define APART_NS 500000000 /* between two looks */
@@ -29,19 +31,6 @@ void settled_close(settled *t)
     *t = (settled){.count = 0};
 }
 
-/* Of a picture of the looks' size; false outside of it. */
-static bool pixel_at(const rlf_camera *camera, rlf_vec3 p, int32_t *x, int32_t *y)
-{
-    double u, v;
-    if (!rlf_camera_project(camera, p, &u, &v) || !(u >= 0.0 && v >= 0.0) ||
-        u + 0.5 >= camera->width || v + 0.5 >= camera->height) {
-        return false;
-    }
-    *x = (int32_t)(u + 0.5);
-    *y = (int32_t)(v + 0.5);
-    return true;
-}
-
 /* The frame becomes the newer look; the nearest of what falls on a pixel counts. */
 static void take_look(settled *t, const rlf_surface *s, const rlf_pose *T_world_camera)
 {
@@ -56,9 +45,10 @@ static void take_look(settled *t, const rlf_surface *s, const rlf_pose *T_world_
     memset(look->depth, 0,
            (size_t)t->camera.width * (size_t)t->camera.height * sizeof(*look->depth));
     for (int32_t i = 0; i < s->width * s->height; i++) {
-        int32_t x, y;
-        if (s->depth[i] > 0.0f && pixel_at(&t->camera, rlf_surface_point(s, i), &x, &y)) {
-            float *z = &look->depth[y * t->camera.width + x];
+        const int32_t k =
+            s->depth[i] > 0.0f ? camera_pixel_of(&t->camera, rlf_surface_point(s, i)) : -1;
+        if (k >= 0) {
+            float *z = &look->depth[k];
             *z = *z > 0.0f && *z < s->depth[i] ? *z : s->depth[i];
         }
     }
@@ -77,9 +67,10 @@ static double margin_at(const settled *t, double z)
 }
 
 /* Least and most depth of 3 x 3 pixels of the look; false where there is none. */
-static bool span_at(const comparison *c, int32_t x, int32_t y, double *least, double *most)
+static bool span_at(const comparison *c, int32_t pixel, double *least, double *most)
 {
     const rlf_camera *camera = &c->t->camera;
+    const int32_t x = pixel % camera->width, y = pixel / camera->width;
     *least = 1e9;
     *most = 0.0;
     for (int32_t k = 0; k < 9; k++) {
@@ -94,37 +85,32 @@ static bool span_at(const comparison *c, int32_t x, int32_t y, double *least, do
 }
 
 /* Whether what stood at depth z of the look's pixel is no more. */
-static bool has_left(const comparison *c, int32_t x, int32_t y, double z)
+static bool has_left(const comparison *c, int32_t pixel, double z)
 {
     const rlf_camera *k = &c->t->camera;
+    const double x = pixel % k->width, y = pixel / k->width;
     const rlf_vec3 p = {(x - k->cx) / k->fx * z, (y - k->cy) / k->fy * z, z};
     const rlf_vec3 now = rlf_transform(&c->T_now_look, p);
-    int32_t u, v;
-    if (!pixel_at(&c->now->camera, now, &u, &v)) {
-        return false;
-    }
-    return (double)c->now->depth[v * c->now->width + u] > now.z + margin_at(c->t, now.z);
+    const int32_t at = camera_pixel_of(&c->now->camera, now);
+    return at >= 0 && (double)c->now->depth[at] > now.z + margin_at(c->t, now.z);
 }
 
 static bool is_settled(const comparison *c, rlf_vec3 q)
 {
     const rlf_vec3 p = rlf_transform(&c->T_look_now, q);
     const double margin = margin_at(c->t, p.z);
+    const int32_t pixel = camera_pixel_of(&c->t->camera, p);
     double least, most;
-    int32_t x, y;
-    if (!pixel_at(&c->t->camera, p, &x, &y) || !span_at(c, x, y, &least, &most)) {
+    if (pixel < 0 || !span_at(c, pixel, &least, &most)) {
         return true; /* nobody looked there */
     }
-    return p.z > most + margin ? !has_left(c, x, y, least) : p.z >= least - margin;
+    return p.z > most + margin ? !has_left(c, pixel, least) : p.z >= least - margin;
 }
 
 static bool is_on_room(const settled *t, const rlf_prediction *room, rlf_vec3 q)
 {
-    int32_t x, y;
-    if (room == NULL || !pixel_at(&room->camera, q, &x, &y)) {
-        return false;
-    }
-    const double off = q.z - (double)room->depth[y * room->camera.width + x];
+    const int32_t pixel = room != NULL ? camera_pixel_of(&room->camera, q) : -1;
+    const double off = pixel >= 0 ? q.z - (double)room->depth[pixel] : 1e9;
     const double margin = margin_at(t, q.z);
     return off < margin && off > -margin;
 }

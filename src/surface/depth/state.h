@@ -3,8 +3,8 @@
 #ifndef RLF_SURFACE_DEPTH_STATE_H
 #define RLF_SURFACE_DEPTH_STATE_H
 
+#include "base/arena.h"
 #include "kernel/batch.h"
-#include "surface/arena.h"
 #include "surface/frame.h"
 
 /* Side of a block in pixels, and the frames without motion after which one is calm. */

@@ -1,5 +1,6 @@
 /* The frame before as this frame's camera would have seen it, so that what is compared with it has
  * moved in the room, not in the picture. */
+#include "camera/pixels.h"
 #include "surface/steps.h"
 
 #include <string.h>
@@ -13,17 +14,6 @@ static void clear_slot(const image_grid *grid, rlf_slot *slot)
     memset(slot->reason, RLF_REASON_NO_RETURN, n);
 }
 
-/* Pixel of the grid that sees a point; -1 = none. */
-static int32_t pixel_of(const image_grid *grid, rlf_vec3 p)
-{
-    double u, v;
-    if (!rlf_camera_project(&grid->camera, p, &u, &v) || !(u > -0.5 && v > -0.5) ||
-        !(u < grid->width - 0.5 && v < grid->height - 0.5)) {
-        return -1;
-    }
-    return (int32_t)(v + 0.5) * grid->width + (int32_t)(u + 0.5);
-}
-
 static void carry_pixels(const image_grid *grid, const rlf_slot *from, const rlf_pose *T,
                          rlf_slot *to)
 {
@@ -34,7 +24,7 @@ static void carry_pixels(const image_grid *grid, const rlf_slot *from, const rlf
         }
         const rlf_vec3 p = {z * grid->ray_x[i], z * grid->ray_y[i], z};
         const rlf_vec3 q = rlf_transform(T, p);
-        const int32_t k = pixel_of(grid, q);
+        const int32_t k = camera_pixel_of(&grid->camera, q);
         if (k >= 0 && (!(to->depth[k] > 0.0f) || (float)q.z < to->depth[k])) {
             to->depth[k] = (float)q.z;
             to->label[k] = from->label[i];

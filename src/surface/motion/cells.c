@@ -4,6 +4,7 @@
  * (the region's motion, the frame before's, the neighbour's, none) are tried against the frame
  * before, and the best is improved by Gauss and Newton. A guess matters because a limb that crosses
  * the picture moves by as much as its own width from frame to frame. */
+#include "surface/motion/keyframe.h"
 #include "surface/motion/motion.h"
 
 #include <math.h>
@@ -13,13 +14,35 @@ enum {
     MOST_SAMPLES = RLF_FLOW_BATCH, /* SIDE_SAMPLES squared */
     LEAST_SAMPLES = 6,             /* that must agree */
     PASSES = 3,
-    GUESSES = 9,
     SEARCH = 4 /* steps to each side */
 };
 
+static const float fastest = 5.0f;  /* m/s */
 static const float reach_m = 0.01f; /* beyond the noise: from here on a residual is all wrong */
 /* Squared sum of 3 normal variables that chance exceeds once in 400 times. */
 static const float significant_3 = 14.2f;
+
+/* A square of the image in one region. */
+typedef struct rlf_cell {
+    rlf_velocity velocity;
+    float depth; /* of the limb that it holds, metres; 0 = none of the region */
+    int32_t state;
+} rlf_cell;
+
+/* What is known of a cell: nothing of the region, nothing that fits, it rests, it moves with the
+ * region, it moves by itself. */
+enum { RLF_CELL_EMPTY = 0, RLF_CELL_UNKNOWN, RLF_CELL_STILL, RLF_CELL_WHOLE, RLF_CELL_MOVES };
+
+/* The cells of one region. */
+typedef struct rlf_cell_grid {
+    const rlf_flow *job;
+    const rlf_region *region;
+    const rlf_twist *twist;
+    bool moves; /* the twist is not 0 */
+    rlf_cell *cells;
+    int32_t size, columns, rows;
+    int32_t number; /* of the region, in the runs */
+} rlf_cell_grid;
 
 /* The pixels of a cell that show its limb. */
 typedef struct samples {
@@ -36,20 +59,10 @@ typedef struct residuals {
     int32_t is_seen[MOST_SAMPLES];
 } residuals;
 
-typedef struct cell_fit {
-    float velocity[3];
-    float cost, cost_still, cost_whole;
-} cell_fit;
-
 typedef struct velocity_guess {
-    float v[3];
+    rlf_velocity of;
     float cost; /* < 0: not yet known */
 } velocity_guess;
-
-size_t rlf_cell_capacity(const image_grid *grid)
-{
-    return ((size_t)grid->width / SIDE_SAMPLES + 1) * ((size_t)grid->height / SIDE_SAMPLES + 1);
-}
 
 static float depth_of(const rlf_cell_grid *g, int32_t x, int32_t y)
 {
@@ -128,18 +141,18 @@ static void take_samples(const rlf_cell_grid *g, int32_t x0, int32_t y0, float d
 
 /* Distance along the normal between the samples first <= k < end taken back by v dt and what was
  * seen there. */
-static void find_residuals(const rlf_cell_grid *g, const samples *all, const float v[3],
+static void find_residuals(const rlf_cell_grid *g, const samples *all, rlf_velocity v,
                            int32_t first, int32_t end, residuals *out)
 {
     const rlf_flow *job = g->job;
-    const float step[3] = {v[0] * job->dt, v[1] * job->dt, v[2] * job->dt};
+    const float step[3] = {v.v[0] * job->dt, v.v[1] * job->dt, v.v[2] * job->dt};
     rlf_kernel_flow_residuals(&job->view, &all->s, step, first, end - first, out->e, out->is_seen);
 }
 
 /* Sum of squared residuals, each limited: what does not fit at all counts like what fits badly. But
  * the sensor drops a pixel now and then: a few that were not seen count like noise. Stops where it
  * is more than `most`: sums only grow. */
-static float cost_of(const rlf_cell_grid *g, const samples *all, const float v[3], float most)
+static float cost_of(const rlf_cell_grid *g, const samples *all, rlf_velocity v, float most)
 {
     float cost = 0.0f;
     int32_t lost = 0;
@@ -159,239 +172,138 @@ static float cost_of(const rlf_cell_grid *g, const samples *all, const float v[3
     return cost;
 }
 
-typedef struct normal_equations {
-    float xx, xy, xz, yy, yz, zz, b[3];
-    int32_t count;
-} normal_equations;
-
-/* (A + ridge) v = b by Cramer's rule. */
-static void solve(const normal_equations *e, float v[3])
-{
-    float ridge = rlf_flow_ridge * (float)e->count;
-    float xx = e->xx + ridge, yy = e->yy + ridge, zz = e->zz + ridge;
-    float cxx = yy * zz - e->yz * e->yz, cxy = e->xz * e->yz - e->xy * zz;
-    float cxz = e->xy * e->yz - e->xz * yy, cyy = xx * zz - e->xz * e->xz;
-    float cyz = e->xy * e->xz - xx * e->yz, czz = xx * yy - e->xy * e->xy;
-    float inverse = 1.0f / (xx * cxx + e->xy * cxy + e->xz * cxz);
-    v[0] = (cxx * e->b[0] + cxy * e->b[1] + cxz * e->b[2]) * inverse;
-    v[1] = (cxy * e->b[0] + cyy * e->b[1] + cyz * e->b[2]) * inverse;
-    v[2] = (cxz * e->b[0] + cyz * e->b[1] + czz * e->b[2]) * inverse;
-}
-
 /* One step of Gauss and Newton; returns how many samples agree. */
-static int32_t improve(const rlf_cell_grid *g, const samples *all, float limit, float v[3])
+static int32_t improve(const rlf_cell_grid *g, const samples *all, float limit, rlf_velocity *v)
 {
-    normal_equations a = {0};
-    residuals r;
-    find_residuals(g, all, v, 0, all->count, &r);
-    for (int32_t k = 0; k < all->count; k++) {
-        float e = r.e[k];
-        if (!r.is_seen[k] || e * e > limit) {
-            continue;
-        }
-        const float n[3] = {all->s.nx[k], all->s.ny[k], all->s.nz[k]};
-        float speed = e / g->job->dt;
-        a.xx += n[0] * n[0];
-        a.xy += n[0] * n[1];
-        a.xz += n[0] * n[2];
-        a.yy += n[1] * n[1];
-        a.yz += n[1] * n[2];
-        a.zz += n[2] * n[2];
-        for (int c = 0; c < 3; c++) {
-            a.b[c] += n[c] * speed;
-        }
-        a.count++;
-    }
-    if (a.count >= LEAST_SAMPLES) {
-        float more[3];
-        solve(&a, more);
-        for (int c = 0; c < 3; c++) {
-            v[c] += more[c];
-        }
-    }
-    return a.count;
-}
-
-static void copy(const float from[3], float to[3])
-{
-    for (int k = 0; k < 3; k++) {
-        to[k] = from[k];
-    }
-}
-
-static velocity_guess guess_of(const float v[3], float cost)
-{
-    velocity_guess guess = {{v[0], v[1], v[2]}, cost};
-    return guess;
-}
-
-static void whole_velocity(const rlf_cell_grid *g, const float p[3], float out[3])
-{
-    rlf_vec3 v = rlf_twist_velocity(g->twist, rlf_vec3_make(p[0], p[1], p[2]));
-    out[0] = (float)v.x;
-    out[1] = (float)v.y;
-    out[2] = (float)v.z;
-}
-
-/* Guesses for a cell beside the region's motion and rest: what was published a frame ago here and a
- * cell or two around, from where a limb may have come. Returns their number. */
-static int32_t make_guesses(const rlf_cell_grid *g, ptrdiff_t middle, velocity_guess *guess)
-{
-    const image_grid *grid = &g->job->stage->grid;
-    const rlf_slot *before = g->job->before;
-    const int32_t around[7][2] = {{0, 0}, {-1, 0}, {1, 0}, {-2, 0}, {2, 0}, {0, -1}, {0, 1}};
-    int32_t x0 = (int32_t)(middle % grid->width), y0 = (int32_t)(middle / grid->width);
+    rlf_mat3 a = {{{0.0}}}, inverse;
+    rlf_vec3 b = {0.0, 0.0, 0.0};
     int32_t count = 0;
-    for (int k = 0; k < 7; k++) {
-        int32_t x = x0 + around[k][0] * g->size, y = y0 + around[k][1] * g->size;
-        if (x < 0 || y < 0 || x >= grid->width || y >= grid->height) {
+    residuals r;
+    find_residuals(g, all, *v, 0, all->count, &r);
+    for (int32_t k = 0; k < all->count; k++) {
+        const double e = r.e[k], n[3] = {all->s.nx[k], all->s.ny[k], all->s.nz[k]};
+        if (!r.is_seen[k] || r.e[k] * r.e[k] > limit) {
             continue;
         }
-        ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-        const float v[3] = {before->velocity[0][i], before->velocity[1][i], before->velocity[2][i]};
-        if (v[0] != 0.0f || v[1] != 0.0f || v[2] != 0.0f) {
-            guess[count++] = guess_of(v, -1.0f);
+        for (int i = 0; i < 9; i++) {
+            a.m[i / 3][i % 3] += n[i / 3] * n[i % 3];
         }
+        b = rlf_mad(b, rlf_vec3_make(n[0], n[1], n[2]), e / (double)g->job->dt);
+        count++;
+    }
+    for (int i = 0; i < 3; i++) {
+        a.m[i][i] += (double)rlf_flow_ridge * count;
+    }
+    if (count >= LEAST_SAMPLES && rlf_mat3_invert(&a, &inverse)) {
+        const rlf_vec3 more = rlf_mat3_mul_vec(&inverse, b);
+        *v = rlf_velocity_make(more.x + (double)v->v[0], more.y + (double)v->v[1],
+                               more.z + (double)v->v[2]);
     }
     return count;
 }
 
 /* Velocity and cost of the best of some guesses, improved. */
-static float fit_guesses(const rlf_cell_grid *g, const samples *all, const velocity_guess *guess,
-                         int32_t count, float v[3])
+static velocity_guess fit_guesses(const rlf_cell_grid *g, const samples *all,
+                                  const velocity_guess *guess, int32_t count)
 {
-    float least = all->limit * (float)(all->count + 1);
-    copy(guess[0].v, v);
+    velocity_guess best = {guess[0].of, all->limit * (float)(all->count + 1)};
     for (int32_t k = 0; k < count; k++) {
-        float known = guess[k].cost;
-        float cost = known < 0.0f ? cost_of(g, all, guess[k].v, least) : known;
-        if (cost < least) {
-            least = cost;
-            copy(guess[k].v, v);
-        }
+        const float known = guess[k].cost;
+        const float cost = known < 0.0f ? cost_of(g, all, guess[k].of, best.cost) : known;
+        best = cost < best.cost ? (velocity_guess){guess[k].of, cost} : best;
     }
-    float better[3];
-    copy(v, better);
+    velocity_guess better = best;
     int32_t agree = 0;
     for (int pass = 0; pass < PASSES; pass++) {
-        agree = improve(g, all, pass == 0 ? 9.0f * all->limit : all->limit, better);
+        agree = improve(g, all, pass == 0 ? 9.0f * all->limit : all->limit, &better.of);
     }
-    float cost = cost_of(g, all, better, least);
-    if (agree >= LEAST_SAMPLES && cost < least) {
-        copy(better, v);
-        least = cost;
-    }
-    return least;
+    better.cost = cost_of(g, all, better.of, best.cost);
+    return agree >= LEAST_SAMPLES && better.cost < best.cost ? better : best;
 }
 
-/* Rest and the region's motion are true until the noise cannot explain what they leave. Where both
- * are, a piece that is flat cannot tell, and moves with the region. */
-static void decide(const rlf_cell_grid *g, const samples *all, const cell_fit *fit,
-                   const float motion[3], rlf_cell *cell)
+static bool fits(const samples *all, float cost)
 {
-    float tolerance = significant_3 * rlf_flow_correlated * all->variance;
-    bool fits = 4.0f * fit->cost <= 3.0f * all->limit * (float)all->count;
-    bool still = fit->cost_still - fit->cost <= tolerance;
-    bool whole = fit->cost_whole - fit->cost <= tolerance;
-    if (!fits) {
-        cell->state = RLF_CELL_UNKNOWN;
-    } else if (whole) {
-        cell->state = g->moves ? RLF_CELL_WHOLE : RLF_CELL_STILL;
-    } else {
-        cell->state = still ? RLF_CELL_STILL : RLF_CELL_MOVES;
-    }
-    copy(cell->state == RLF_CELL_WHOLE ? motion : fit->velocity, cell->velocity);
+    return 4.0f * cost <= 3.0f * all->limit * (float)all->count;
 }
 
-/* What a piece cannot tell of its motion, a limb along its own axis, stays from frame to frame
- * however wrong it is. It is the region's when the nearest motion to that fits as well. */
-static void lean_on(const rlf_cell_grid *g, const samples *all, const float motion[3], float cost,
-                    rlf_cell *cell)
+/* What noise makes of the difference between two costs. */
+static float tolerance_of(const samples *all)
 {
-    float v[3];
-    copy(motion, v);
-    for (int pass = 0; pass < PASSES; pass++) {
-        (void)improve(g, all, pass == 0 ? 9.0f * all->limit : all->limit, v);
-    }
-    if (cost_of(g, all, v, INFINITY) - cost <=
-        significant_3 * rlf_flow_correlated * all->variance) {
-        copy(v, cell->velocity);
-    }
+    return significant_3 * rlf_flow_correlated * all->variance;
 }
 
 /* A limb that begins to swing, or comes from behind another, moves as nothing about it did a frame
  * ago: looks for where it was, to the sides. (Up and down, too, legs are found where they were not:
  * they are long.) */
-static void search(const rlf_cell_grid *g, const samples *all, cell_fit *fit)
+static velocity_guess search(const rlf_cell_grid *g, const samples *all)
 {
     velocity_guess guess[2 * SEARCH];
     int32_t count = 0;
     for (int32_t k = -SEARCH; k <= SEARCH; k++) {
-        const float v[3] = {(float)k * rlf_flow_limb_m / g->job->dt, 0.0f, 0.0f};
         if (k != 0) {
-            guess[count++] = guess_of(v, -1.0f);
+            const rlf_velocity of = {{(float)k * rlf_flow_limb_m / g->job->dt, 0.0f, 0.0f}};
+            guess[count++] = (velocity_guess){of, -1.0f};
         }
     }
-    float v[3];
-    float cost = fit_guesses(g, all, guess, count, v);
-    if (cost < fit->cost) {
-        fit->cost = cost;
-        copy(v, fit->velocity);
-    }
+    return fit_guesses(g, all, guess, count);
 }
 
-static bool is_sure_at(const rlf_twist *t, const float p[3])
-{
-    const rlf_vec3 off = rlf_sub(rlf_vec3_make(p[0], p[1], p[2]), t->centre);
-    return rlf_length(off) < t->reach;
-}
-
+/* Rest and the region's motion are true until the noise cannot explain what they leave. Where both
+ * are, a piece that is flat cannot tell, and moves with the region. */
 static void fit_cell(const rlf_cell_grid *g, const samples *all, const rlf_cell *left,
                      rlf_cell *cell)
 {
-    static const float rest[3] = {0.0f, 0.0f, 0.0f};
-    velocity_guess guess[GUESSES + 3];
-    float whole[3];
-    int32_t middle = all->count / 2;
-    const float p[3] = {all->s.x[middle], all->s.y[middle], all->s.z[middle]};
-    whole_velocity(g, p, whole);
-    cell_fit fit = {.cost_still = cost_of(g, all, rest, INFINITY)};
-    fit.cost_whole = g->moves ? cost_of(g, all, whole, INFINITY) : fit.cost_still;
+    const int32_t middle = all->count / 2, as_whole = g->moves ? RLF_CELL_WHOLE : RLF_CELL_STILL;
+    const rlf_vec3 p = rlf_vec3_make(all->s.x[middle], all->s.y[middle], all->s.z[middle]);
+    const rlf_vec3 v = rlf_twist_velocity(g->twist, p);
+    const bool is_sure = rlf_length(rlf_sub(p, g->twist->centre)) < g->twist->reach;
+    float *const *was = g->job->before->velocity;
+    const int32_t i = all->pixel[middle];
+    const rlf_velocity before = {{was[0][i], was[1][i], was[2][i]}};
+    velocity_guess guess[4], still = {{{0.0f}}, 0.0f};
+    velocity_guess whole = {rlf_velocity_make(v.x, v.y, v.z), 0.0f};
+    still.cost = cost_of(g, all, still.of, INFINITY);
+    whole.cost = g->moves ? cost_of(g, all, whole.of, INFINITY) : still.cost;
+    cell->velocity = whole.of;
+    cell->state = as_whole;
     /* no more than the noise; or what a keyframe tells, where nothing speaks against it */
-    float least = is_sure_at(g->twist, p) ? 0.75f * all->limit : all->variance;
-    if (fit.cost_whole <= least * (float)all->count) {
-        cell->state = g->moves ? RLF_CELL_WHOLE : RLF_CELL_STILL;
-        copy(whole, cell->velocity);
+    const float least = is_sure ? 0.75f * all->limit : all->variance;
+    if (whole.cost <= least * (float)all->count) {
         return;
     }
-    int32_t count = make_guesses(g, all->pixel[middle], guess);
-    guess[count++] = guess_of(whole, fit.cost_whole);
-    guess[count++] = guess_of(rest, fit.cost_still);
+    int32_t count = 2;
+    guess[0] = whole;
+    guess[1] = still;
+    if (before.v[0] != 0.0f || before.v[1] != 0.0f || before.v[2] != 0.0f) {
+        guess[count++] = (velocity_guess){before, -1.0f};
+    }
     if (left != NULL && left->state == RLF_CELL_MOVES) {
-        guess[count++] = guess_of(left->velocity, -1.0f);
+        guess[count++] = (velocity_guess){left->velocity, -1.0f};
     }
-    fit.cost = fit_guesses(g, all, guess, count, fit.velocity);
-    if (2.0f * fit.cost > all->limit * (float)all->count) {
-        search(g, all, &fit);
+    velocity_guess best = fit_guesses(g, all, guess, count);
+    if (2.0f * best.cost > all->limit * (float)all->count) {
+        const velocity_guess other = search(g, all);
+        best = other.cost < best.cost ? other : best;
     }
-    decide(g, all, &fit, whole, cell);
-    if (cell->state == RLF_CELL_MOVES) {
-        lean_on(g, all, whole, fit.cost, cell);
+    const float most = best.cost + tolerance_of(all);
+    if (!fits(all, best.cost) || whole.cost > most) {
+        cell->state = !fits(all, best.cost) ? RLF_CELL_UNKNOWN
+                      : still.cost <= most  ? RLF_CELL_STILL
+                                            : RLF_CELL_MOVES;
+        cell->velocity = best.of;
     }
 }
 
 /* Mean velocity of the moving neighbours with the same limb; false when there are fewer than two.
  */
-static bool neighbour_mean(const rlf_cell_grid *g, int32_t row, int32_t column, float out[3])
+static bool neighbour_mean(const rlf_cell_grid *g, int32_t row, int32_t column, rlf_velocity *out)
 {
-    const int32_t side[8][2] = {{-1, -1}, {0, -1}, {1, -1}, {-1, 0},
-                                {1, 0},   {-1, 1}, {0, 1},  {1, 1}};
     const rlf_cell *cell = &g->cells[row * g->columns + column];
     float count = 0.0f;
-    out[0] = out[1] = out[2] = 0.0f;
-    for (int k = 0; k < 8; k++) {
-        int32_t r = row + side[k][1], c = column + side[k][0];
-        if (r < 0 || c < 0 || r >= g->rows || c >= g->columns) {
+    *out = (rlf_velocity){{0.0f}};
+    for (int k = 0; k < 9; k++) {
+        int32_t r = row + k / 3 - 1, c = column + k % 3 - 1;
+        if (k == 4 || r < 0 || c < 0 || r >= g->rows || c >= g->columns) {
             continue;
         }
         const rlf_cell *next = &g->cells[r * g->columns + c];
@@ -401,11 +313,11 @@ static bool neighbour_mean(const rlf_cell_grid *g, int32_t row, int32_t column, 
         }
         count += 1.0f;
         for (int d = 0; d < 3; d++) {
-            out[d] += next->velocity[d];
+            out->v[d] += next->velocity.v[d];
         }
     }
     for (int d = 0; d < 3 && count > 1.0f; d++) {
-        out[d] /= count;
+        out->v[d] /= count;
     }
     return count > 1.0f;
 }
@@ -416,19 +328,17 @@ static void relax_cell(const rlf_cell_grid *g, int32_t row, int32_t column, samp
 {
     rlf_cell *cell = &g->cells[row * g->columns + column];
     velocity_guess guess = {.cost = -1.0f};
-    float v[3];
     if ((cell->state != RLF_CELL_MOVES && cell->state != RLF_CELL_UNKNOWN) ||
-        !neighbour_mean(g, row, column, guess.v)) {
+        !neighbour_mean(g, row, column, &guess.of)) {
         return;
     }
     take_samples(g, g->region->x0 + column * g->size, g->region->y0 + row * g->size, cell->depth,
                  all);
-    float tolerance = significant_3 * rlf_flow_correlated * all->variance;
-    float cost = fit_guesses(g, all, &guess, 1, v);
-    float own = cost_of(g, all, cell->velocity, INFINITY);
-    bool fits = 4.0f * cost <= 3.0f * all->limit * (float)all->count;
-    if (all->count >= LEAST_SAMPLES && fits && cost <= own + tolerance) {
-        copy(v, cell->velocity);
+    const velocity_guess found = fit_guesses(g, all, &guess, 1);
+    const float own = cost_of(g, all, cell->velocity, INFINITY);
+    if (all->count >= LEAST_SAMPLES && fits(all, found.cost) &&
+        found.cost <= own + tolerance_of(all)) {
+        cell->velocity = found.of;
         cell->state = RLF_CELL_MOVES;
     }
 }
@@ -439,28 +349,6 @@ static void relax(const rlf_cell_grid *g)
     for (int32_t row = g->rows - 1; row >= 0; row--) {
         for (int32_t column = g->columns - 1; column >= 0; column--) {
             relax_cell(g, row, column, &all);
-        }
-    }
-}
-
-/* What samples of the cell from (x0, y0) on are read from is brought near. */
-RLF_KERNEL_PART void fetch_cell(const rlf_cell_grid *g, int32_t x0, int32_t y0)
-{
-    enum { LINE = 16 };
-    const image_grid *grid = &g->job->stage->grid;
-    const rlf_slot *now = g->job->now;
-    int32_t step = (g->size + SIDE_SAMPLES - 1) / SIDE_SAMPLES;
-    int32_t x1 = rlf_least(x0 + g->size, g->region->x1),
-            y1 = rlf_least(y0 + g->size, g->region->y1);
-    for (int32_t y = y0; y < y1; y += step) {
-        for (int32_t x = x0; x < x1; x += LINE) {
-            ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-            RLF_KERNEL_SOON(&now->label[i]);
-            RLF_KERNEL_SOON(&now->reason[i]);
-            RLF_KERNEL_SOON(&now->depth[i]);
-            RLF_KERNEL_SOON(&now->normal[0][i]);
-            RLF_KERNEL_SOON(&now->normal[1][i]);
-            RLF_KERNEL_SOON(&now->normal[2][i]);
         }
     }
 }
@@ -478,8 +366,7 @@ static void fit_rows(void *context, int32_t begin, int32_t end, int32_t worker)
             int32_t x0 = region->x0 + column * g->size;
             int32_t x1 = x0 + g->size < region->x1 ? x0 + g->size : region->x1;
             rlf_cell *cell = &g->cells[row * g->columns + column];
-            fetch_cell(g, x0 + g->size, y0);
-            *cell = (rlf_cell){{0.0f, 0.0f, 0.0f}, limb_depth(g, x0, y0, x1, y1), RLF_CELL_EMPTY};
+            *cell = (rlf_cell){{{0.0f}}, limb_depth(g, x0, y0, x1, y1), RLF_CELL_EMPTY};
             if (!(cell->depth > 0.0f)) {
                 continue;
             }
@@ -490,6 +377,81 @@ static void fit_rows(void *context, int32_t begin, int32_t end, int32_t worker)
             }
         }
     }
+}
+
+/* ---- pixels: the mean of the cells around, weighted by nearness, of those with the same limb ----
+ */
+
+static rlf_kernel_flow_cell cell_at(const rlf_cell_grid *g, int32_t row, int32_t column)
+{
+    if (row < 0 || column < 0 || row >= g->rows || column >= g->columns) {
+        return (rlf_kernel_flow_cell){.is_known = false};
+    }
+    const rlf_cell *cell = &g->cells[row * g->columns + column];
+    return (rlf_kernel_flow_cell){{cell->velocity.v[0], cell->velocity.v[1], cell->velocity.v[2]},
+                                  cell->depth,
+                                  cell->state >= RLF_CELL_WHOLE,
+                                  cell->state != RLF_CELL_MOVES};
+}
+
+/* Half a cell at a time, what is not of a cell that rests. */
+static void write_run(const rlf_cell_grid *g, rlf_kernel_flow *flow, int32_t y, const rlf_run *run)
+{
+    const image_grid *grid = &g->job->stage->grid;
+    rlf_slot *now = g->job->now;
+    const int32_t size = g->size, half = size / 2, down = y - g->region->y0;
+    const int32_t row = down / size, above = row - (down % size < half ? 1 : 0);
+    flow->down = ((float)down + 0.5f) * flow->inverse - 0.5f - (float)above;
+    for (int32_t x = run->x0, next; x < run->x1; x = next) {
+        const int32_t right = x - g->region->x0, column = right / size;
+        const bool is_first = right % size < half;
+        next = rlf_least(run->x1, g->region->x0 + column * size + (is_first ? half : size));
+        if (g->cells[row * g->columns + column].state == RLF_CELL_STILL) {
+            continue;
+        }
+        const int32_t before = column - (is_first ? 1 : 0);
+        flow->column = (float)before;
+        for (int k = 0; k < 4; k++) {
+            flow->cell[k] = cell_at(g, above + k / 2, before + k % 2);
+        }
+        const ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+        float *const out[3] = {now->velocity[0] + i, now->velocity[1] + i, now->velocity[2] + i};
+        flow->first = right;
+        rlf_kernel_flow_row(flow, now->depth + i, grid->ray_x + i, grid->ray_y + i, next - x, out);
+    }
+}
+
+static rlf_kernel_flow flow_of(const rlf_cell_grid *g)
+{
+    rlf_vec3 c = g->twist->centre, s = rlf_twist_spin(g->twist);
+    const double *x = g->twist->x;
+    return (rlf_kernel_flow){.twist = {{c.x, c.y, c.z}, {x[0], x[1], x[2]}, {s.x, s.y, s.z}},
+                             .moves = g->moves,
+                             .inverse = 1.0f / (float)g->size,
+                             .limb = 2.0f * rlf_flow_limb_m,
+                             .fastest = fastest};
+}
+
+static void write_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const rlf_cell_grid *g = context;
+    const rlf_runs *runs = &g->job->stage->work.runs;
+    rlf_kernel_flow flow = flow_of(g);
+    for (int32_t y = g->region->y0 + begin; y < g->region->y0 + end; y++) {
+        for (int32_t r = runs->first[y]; r < runs->first[y + 1]; r++) {
+            if (runs->run[r].component == g->number) {
+                write_run(g, &flow, y, &runs->run[r]);
+            }
+        }
+    }
+}
+
+static void write_cells(rlf_cell_grid *g)
+{
+    const rlf_region *region = g->region;
+    rlf_parallel_for(g->job->stage->def.pool, region->y1 - region->y0, RLF_ROW_GRAIN, write_rows,
+                     g);
 }
 
 void rlf_velocity_cells(const rlf_flow *job, const rlf_region *region, const rlf_twist *twist,
@@ -509,5 +471,17 @@ void rlf_velocity_cells(const rlf_flow *job, const rlf_region *region, const rlf
     g.rows = (region->y1 - region->y0 + g.size - 1) / g.size;
     rlf_parallel_for(job->stage->def.pool, g.rows, 1, fit_rows, &g);
     relax(&g);
-    rlf_cells_write(&g);
+    write_cells(&g);
+}
+
+void velocity_allocate(velocity_planes *state, rlf_arena *arena, const image_grid *grid)
+{
+    const size_t n = (size_t)grid->count;
+    const size_t cells =
+        ((size_t)grid->width / SIDE_SAMPLES + 1) * ((size_t)grid->height / SIDE_SAMPLES + 1);
+    state->seen = arena_take(arena, n, sizeof(float));
+    state->cells = arena_take(arena, cells, sizeof *state->cells);
+    state->keyframe = arena_take(arena, RLF_KEYFRAMES, sizeof(rlf_keyframe));
+    arena_next_owner(arena);
+    state->is_steady = arena_lend(arena, n, 1);
 }

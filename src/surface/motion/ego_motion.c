@@ -6,24 +6,21 @@
  * moves when it does so in most parts, and in nearly all at which that motion would be seen.
  * Somebody who walks by, however large, leaves the room behind him at rest; a bare wall cannot tell
  * a motion along itself, so who turns before it decides nothing. */
-#include "surface/motion/ego_motion.h"
-
-#include "surface/stage.h"
+#include "surface/motion/motion.h"
 
 #include "kernel/kernel.h"
-#include "math/solve_six.h"
+#include "math/rigid.h"
 
 #include <math.h>
 
 enum {
-    PASSES = 5,
     PERIOD = 8,        /* frames between two views that are kept: the older is 8 to 16 frames old */
     MOVING_PERIOD = 4, /* while the camera moves; motion is taken to go on unseen for as long */
     SURE_FRAMES = 2,   /* in a row */
     FEWEST_OF_PART = 8 /* points that tell anything */
 };
 
-static const double gates_m[PASSES] = {0.3, 0.15, 0.05, 0.0, 0.0};
+static const double gates_m[] = {0.3, 0.15, 0.05, 0.0, 0.0};
 static const double tukey = 4.685;      /* sigmas; 95 % efficient (Holland and Welsch 1977) */
 static const double rest_square = 1.5;  /* of sigmas, mean: 1 is noise alone */
 static const double rest_sigmas = 3.0;  /* what is nearer to rest than that is at rest */
@@ -53,16 +50,10 @@ static bool distance_to(const ego_job *job, int32_t k, const rlf_pose *pose, rlf
     const image_grid *grid = job->grid;
     const rlf_ego_point *from = &job->view->points[k];
     rlf_vec3 p = rlf_transform(pose, from->point);
-    if (!(p.z > 0.05)) {
+    const ptrdiff_t to = rlf_flow_pixel(grid, from->pixel, p);
+    if (to < 0) {
         return false;
     }
-    int32_t i = from->pixel;
-    double u = i % grid->width + (p.x / p.z - grid->ray_x[i]) * grid->camera.fx;
-    double v = i / grid->width + (p.y / p.z - grid->ray_y[i]) * grid->camera.fy;
-    if (!(u > -0.5 && v > -0.5 && u < grid->width - 0.5 && v < grid->height - 0.5)) {
-        return false;
-    }
-    int32_t to = (int32_t)(v + 0.5) * grid->width + (int32_t)(u + 0.5);
     double z = job->depth[to];
     if (!(z > 0.0)) {
         return false;
@@ -79,16 +70,16 @@ static double sigma_at(const ego_job *job, int32_t k)
 {
     const rlf_ego_point *from = &job->view->points[k];
     double facing = -rlf_dot(from->normal, from->point) / from->point.z;
-    return 1.41421356 * rlf_kernel_sigma(job->noise, (float)from->point.z) * facing;
+    return sqrt(2.0) * rlf_kernel_sigma(job->noise, (float)from->point.z) * facing;
 }
 
 /* One step of Gauss and Newton. A direction that hardly any point determines goes back to rest. */
 static void improve(const ego_job *job, double gate, rlf_pose *pose)
 {
-    const double twice = pose->q.w < 0.0 ? -2.0 : 2.0; /* small turns */
-    const double now[6] = {pose->p.x,         pose->p.y,         pose->p.z,
-                           twice * pose->q.x, twice * pose->q.y, twice * pose->q.z};
-    double a[6][6] = {{0}}, b[6] = {0}, x[6], total = 0.0;
+    const rlf_vec3 turned = math_rotation_vector(pose->q);
+    const double now[6] = {pose->p.x, pose->p.y, pose->p.z, turned.x, turned.y, turned.z};
+    math_rigid_sums sums = {.weight = 0.0};
+    double x[6];
     for (int32_t k = 0; k < job->view->count; k++) {
         rlf_vec3 p, n;
         double off, sigma = sigma_at(job, k);
@@ -96,22 +87,14 @@ static void improve(const ego_job *job, double gate, rlf_pose *pose)
         if (!distance_to(job, k, pose, &p, &n, &off) || off > bound || off < -bound) {
             continue;
         }
-        double t = 1.0 - off * off / (bound * bound), weight = t * t * 1e-6 / (sigma * sigma);
-        rlf_vec3 turn = rlf_cross(p, n);
-        const double row[6] = {n.x, n.y, n.z, turn.x, turn.y, turn.z};
-        total += weight;
-        for (int r = 0; r < 6; r++) {
-            b[r] += weight * row[r] * off;
-            for (int c = 0; c <= r; c++) {
-                a[r][c] += weight * row[r] * row[c];
-            }
-        }
+        const double t = 1.0 - off * off / (bound * bound);
+        math_rigid_add(&sums, n, rlf_cross(p, n), off, t * t * 1e-6 / (sigma * sigma));
     }
     for (int r = 0; r < 6; r++) {
-        a[r][r] += ridge * (total + 1.0);
-        b[r] -= ridge * (total + 1.0) * now[r];
+        sums.a[r][r] += ridge * (sums.weight + 1.0);
+        sums.b[r] -= ridge * (sums.weight + 1.0) * now[r];
     }
-    math_solve_six(a, b, x);
+    (void)math_rigid_solve(&sums, 0.0, x);
     const rlf_pose step = {{x[0], x[1], x[2]},
                            rlf_quat_from_rotation_vector(rlf_vec3_make(x[3], x[4], x[5]))};
     *pose = rlf_pose_mul(&step, pose);
@@ -121,6 +104,7 @@ static void improve(const ego_job *job, double gate, rlf_pose *pose)
 typedef struct ego_part {
     int32_t points, fitting, resting; /* fitting: the motion; resting: at rest */
     double said, gain; /* said: the motion there; gain: how much better than rest it explains */
+    double off_rest;
 } ego_part;
 
 enum { PARTS_X = 4, PARTS_Y = 3, PARTS = PARTS_X * PARTS_Y, FEWEST = PARTS / 2 * FEWEST_OF_PART };
@@ -136,6 +120,7 @@ static int32_t part_index(const image_grid *grid, int32_t pixel)
     return y * PARTS_Y / grid->height * PARTS_X + x * PARTS_X / grid->width;
 }
 
+/* What each part says of a motion, and of rest. */
 static void ask(const ego_job *job, const rlf_pose *pose, ego_part parts[PARTS])
 {
     const rlf_pose rest = rlf_pose_identity();
@@ -150,49 +135,35 @@ static void ask(const ego_job *job, const rlf_pose *pose, ego_part parts[PARTS])
         ego_part *part = &parts[part_index(job->grid, from->pixel)];
         const double sigma = sigma_at(job, k), said = rlf_dot(n, rlf_sub(p, from->point));
         const double bound = tukey * sigma + off_share * (said < 0.0 ? -said : said);
-        const double fit = square_of(off * tukey, bound);
+        const double fit = square_of(off * tukey, bound), at_rest = square_of(off_rest, sigma);
         part->points++;
+        part->off_rest += at_rest;
+        part->resting += at_rest < rest_sigmas * rest_sigmas;
         part->fitting += off < bound && off > -bound;
         part->resting += square_of(off_rest, sigma) < rest_sigmas * rest_sigmas;
         part->said += square_of(said, sigma);
-        part->gain += square_of(off_rest, sigma) - fit;
+        part->gain += at_rest - fit;
     }
 }
 
 /* Whether points of the parts that are marked determine all six directions of a motion. A board is
- * one plane: it takes the others from what is at rest. By Cholesky's steps on the normal equations
- * with a diagonal of 1: each is what a direction tells that those before it do not. */
+ * one plane: it takes the others from what is at rest. */
 static bool is_determined(const ego_job *job, const bool marked[PARTS])
 {
-    double a[6][6] = {{0}}, total = 0.0;
+    math_rigid_sums sums = {.weight = 0.0};
+    double x[6];
     for (int32_t k = 0; k < job->view->count; k++) {
         const rlf_ego_point *from = &job->view->points[k];
         const double sigma = sigma_at(job, k);
-        if (!marked[part_index(job->grid, from->pixel)]) {
-            continue;
-        }
-        const rlf_vec3 n = from->normal;
-        const rlf_vec3 turn = rlf_scale(rlf_cross(from->point, n), 1.0 / from->point.z);
-        const double row[6] = {n.x, n.y, n.z, turn.x, turn.y, turn.z};
-        total += 1.0 / (sigma * sigma);
-        for (int r = 0; r < 6; r++) {
-            for (int c = 0; c <= r; c++) {
-                a[r][c] += row[r] * row[c] / (sigma * sigma);
-            }
+        if (marked[part_index(job->grid, from->pixel)]) {
+            const rlf_vec3 turn = rlf_cross(from->point, from->normal);
+            math_rigid_add(&sums, from->normal, rlf_scale(turn, 1.0 / from->point.z), 0.0,
+                           1.0 / (sigma * sigma));
         }
     }
-    bool is = true;
-    for (int r = 0; r < 6 && is; r++) {
-        const double whole = a[r][r];
-        for (int c = 0; c < r; c++) {
-            for (int k = 0; k < c; k++) {
-                a[r][c] -= a[r][k] * a[c][k];
-            }
-            a[r][c] /= a[c][c];
-            a[r][r] -= a[r][c] * a[r][c];
-        }
-        is = whole > least_share * total && a[r][r] > least_own * whole;
-        a[r][r] = is ? sqrt(a[r][r]) : 1.0;
+    bool is = math_rigid_solve(&sums, least_own, x);
+    for (int r = 0; r < 6; r++) {
+        is = is && sums.a[r][r] > least_share * sums.weight;
     }
     return is;
 }
@@ -234,21 +205,13 @@ static ego_rest find_rest(const ego_job *job)
     ego_rest found = {0, 0, false};
     int32_t points = 0;
     double sum = 0.0;
-    for (int32_t k = 0; k < job->view->count; k++) {
-        rlf_vec3 p, n;
-        double off, sigma = sigma_at(job, k);
-        if (distance_to(job, k, &rest, &p, &n, &off)) {
-            ego_part *part = &parts[part_index(job->grid, job->view->points[k].pixel)];
-            points++;
-            sum += square_of(off, sigma);
-            part->points++;
-            part->resting += square_of(off, sigma) < rest_sigmas * rest_sigmas;
-        }
-    }
+    ask(job, &rest, parts);
     for (int32_t k = 0; k < PARTS; k++) {
         const bool is_seen = parts[k].points >= FEWEST_OF_PART;
         found.seen += is_seen;
         found.resting += is_seen && 2 * parts[k].resting > parts[k].points;
+        points += parts[k].points;
+        sum += parts[k].off_rest;
     }
     found.is_all = sum < rest_square * points;
     return found;
@@ -263,7 +226,7 @@ static bool rests(const ego_rest *found)
 static bool has_moved(const ego_job *job, rlf_pose *pose)
 {
     ego_part parts[PARTS] = {0};
-    for (int32_t pass = 0; pass < PASSES; pass++) {
+    for (size_t pass = 0; pass < sizeof(gates_m) / sizeof(gates_m[0]); pass++) {
         improve(job, gates_m[pass], pose);
     }
     ask(job, pose, parts);
@@ -322,9 +285,16 @@ void rlf_ego_motion_watch(rlf_reconstruct *stage, const float *depth)
     }
 }
 
-static void keep_each(rlf_ego_view *view, const image_grid *grid, const rlf_slot *slot,
-                      int32_t step)
+/* As many points as there is room for: where much has no depth, what has is asked more closely. */
+static void keep(rlf_ego_view *view, const image_grid *grid, const rlf_slot *slot)
 {
+    int32_t seen = 0, step = 1;
+    for (int32_t i = 0; i < grid->count; i++) {
+        seen += slot->reason[i] == RLF_REASON_OK;
+    }
+    while (seen > RLF_EGO_POINTS * step * step) {
+        step++;
+    }
     view->count = 0;
     for (int32_t y = step / 2; y < grid->height; y += step) {
         for (int32_t x = step / 2; x < grid->width && view->count < RLF_EGO_POINTS; x += step) {
@@ -337,20 +307,6 @@ static void keep_each(rlf_ego_view *view, const image_grid *grid, const rlf_slot
                 view->points[view->count++] = (rlf_ego_point){p, n, i};
             }
         }
-    }
-}
-
-/* As many points as there is room for: where much has no depth, what has is asked more closely. */
-static void keep(rlf_ego_view *view, const image_grid *grid, const rlf_slot *slot)
-{
-    int32_t step = 1;
-    while ((int64_t)(grid->width / step + 1) * (grid->height / step + 1) > RLF_EGO_POINTS) {
-        step++;
-    }
-    keep_each(view, grid, slot, step);
-    const double finer = step * sqrt(1.1 * view->count / RLF_EGO_POINTS);
-    if (view->count >= FEWEST && (int32_t)finer + 1 < step) {
-        keep_each(view, grid, slot, (int32_t)finer + 1);
     }
 }
 

@@ -145,25 +145,9 @@ static void turn(const rlf_quat *q, double v[3])
     v[2] = to.z;
 }
 
-static void turn_float(const rlf_quat *q, float v[3])
-{
-    const rlf_vec3 to = rlf_rotate(*q, rlf_vec3_make(v[0], v[1], v[2]));
-    v[0] = (float)to.x;
-    v[1] = (float)to.y;
-    v[2] = (float)to.z;
-}
-
 static void carry(const rlf_pose *T, rlf_keyframe *key)
 {
-    for (int32_t k = 0; k < key->point_count; k++) {
-        turn_float(&T->q, key->point[k].p);
-        turn_float(&T->q, key->point[k].n);
-    }
-    for (int32_t k = 0; k < key->rim_count; k++) {
-        turn_float(&T->q, key->rim[k].p);
-        turn_float(&T->q, key->rim[k].n);
-        turn_float(&T->q, key->rim[k].out);
-    }
+    key->turn = rlf_quat_mul(T->q, key->turn);
     for (int first = 0; first < 6; first += 3) {
         for (int32_t k = 0; k < key->ring_count; k++) {
             turn(&T->q, key->ring[k].x + first);

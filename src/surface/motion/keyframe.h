@@ -6,6 +6,7 @@
 #ifndef RLF_SURFACE_MOTION_KEYFRAME_H
 #define RLF_SURFACE_MOTION_KEYFRAME_H
 
+#include "math/rigid.h"
 #include "surface/stage.h"
 
 enum {
@@ -43,6 +44,8 @@ typedef struct rlf_keyframe {
     rlf_rect rect; /* of its pixels, as it was taken */
     int32_t size;  /* pixels, then */
     rlf_vec3 centre;
+    rlf_quat
+        turn; /* since it was taken, of the camera's making: points are told as they were then */
     double length; /* metres: of a turn about the centre it makes a shift */
     keyframe_point point[KEYFRAME_POINTS];
     keyframe_rim rim[KEYFRAME_RIMS];
@@ -79,9 +82,8 @@ bool keyframe_take(const keyframe_view *view, const rlf_rect *rect, int32_t size
 /* ---- register.c ---- */
 /* How a keyframe fits a frame. */
 typedef struct keyframe_fit {
-    double x[6];    /* the pose */
-    double a[6][6]; /* its information, lower triangle */
-    double b[6];
+    double x[6]; /* the pose */
+    math_rigid_sums sums;
     double cost;               /* squares of all rows, each no more than what is hidden costs */
     int32_t points, rims;      /* seen: neither hidden nor without depth */
     int32_t agree, rims_agree; /* of them */
@@ -132,5 +134,27 @@ void keyframes_carry(velocity_planes *state, const rlf_pose *T_now_before);
 void keyframes_follow(rlf_reconstruct *stage, const rlf_slot *slot, bool is_gap);
 /* The region's motion by its keyframe; NULL: it has none. */
 const rlf_keyframe *keyframe_of_region(const rlf_reconstruct *stage, int32_t label);
+
+/* ---- keyframe.c: how much of a small window a thing fills that ends in it before something
+ * farther; from that its outline is known to a part of a pixel. What continues the thing's plane is
+ * of it.
+ */
+enum { RIM_RADIUS = 3, RIM_SIDE = 2 * RIM_RADIUS + 1 }; /* of a window, pixels */
+
+/* Metres beyond a thing that what is behind it is at least. */
+#define RIM_GAP_M 0.05
+/* Half the pull of a straight outline through the window's middle: less is a corner. */
+#define RIM_LEAST_PULL (0.5f * (float)(RIM_SIDE * RIM_SIDE * (RIM_RADIUS + 1)) / 4.0f)
+
+typedef struct rim_window {
+    float fill;      /* pixels */
+    float x, y;      /* sums of their steps from the middle */
+    int32_t between; /* pixels that may be the thing, or mixed, or something close behind it */
+} rim_window;
+
+/* Of the window about pixel (x, y), for a thing with normal n at p. False out of view, or where
+ * something nearer is in it. */
+bool rim_look(const image_grid *grid, const float *depth, const rlf_kernel_noise *noise, rlf_vec3 p,
+              rlf_vec3 n, int32_t x, int32_t y, rim_window *out);
 
 #endif

@@ -12,11 +12,6 @@ static const double significant_3 = 21.1, likely_1 = 6.63;
 /* Square of a slope in units of its variance in the worst direction: it is right to 5 %. */
 static const double precise = 400.0;
 
-static double square_of(double x)
-{
-    return x * x;
-}
-
 void keyframe_push(rlf_keyframe *key, double time_s, const double x[6])
 {
     if (key->ring_count == KEYFRAME_RING) {
@@ -34,24 +29,24 @@ static double fit_line(const rlf_keyframe *key, int first, int32_t n, double slo
                        double *variance)
 {
     const keyframe_pose *pose = &key->ring[key->ring_count - n];
-    double middle = 0.0, square = 0.0, left = 0.0;
+    double times = 0.0, square = 0.0, left = 0.0;
     for (int32_t k = 0; k < n; k++) {
-        middle += pose[k].time_s / n;
+        const double t = pose[k].time_s - pose[n - 1].time_s;
+        times += t;
+        square += t * t;
     }
-    for (int32_t k = 0; k < n; k++) {
-        square += (pose[k].time_s - middle) * (pose[k].time_s - middle);
-    }
-    for (int c = 0; c < 3; c++) {
-        double mean = 0.0, sum = 0.0;
+    square -= times * times / n;
+    for (int c = first; c < first + 3; c++) {
+        double sum = 0.0, by_time = 0.0, squares = 0.0;
         for (int32_t k = 0; k < n; k++) {
-            mean += pose[k].x[first + c] / n;
-            sum += (pose[k].time_s - middle) * pose[k].x[first + c];
+            const double x = pose[k].x[c] - pose[n - 1].x[c];
+            sum += x;
+            by_time += x * (pose[k].time_s - pose[n - 1].time_s);
+            squares += x * x;
         }
-        slope[c] = sum / square;
-        for (int32_t k = 0; k < n; k++) {
-            const double on = mean + slope[c] * (pose[k].time_s - middle);
-            left += square_of(pose[k].x[first + c] - on) / key->spread[first + c][first + c];
-        }
+        by_time -= sum * times / n;
+        slope[c - first] = by_time / square;
+        left += (squares - sum * sum / n - by_time * by_time / square) / key->spread[c][c];
     }
     *variance = 1.0 / square;
     return left;
@@ -93,7 +88,7 @@ static void measure(rlf_keyframe *key, int first)
             break;
         }
         for (int c = 0; c < 3; c++) {
-            length += square_of(slope[c]);
+            length += slope[c] * slope[c];
             worst = rlf_max(worst, key->spread[first + c][first + c]);
         }
         is_precise = length > precise * worst * variance;

@@ -32,48 +32,25 @@ static inline rlf_vec3 rlf_twist_spin(const rlf_twist *t)
     return rlf_scale(rlf_vec3_make(t->x[3], t->x[4], t->x[5]), 1.0 / t->length);
 }
 
-static inline rlf_vec3 rlf_twist_at(const rlf_twist *t, rlf_vec3 spin, rlf_vec3 p)
-{
-    return rlf_add(rlf_vec3_make(t->x[0], t->x[1], t->x[2]),
-                   rlf_cross(spin, rlf_sub(p, t->centre)));
-}
-
 static inline rlf_vec3 rlf_twist_velocity(const rlf_twist *t, rlf_vec3 p)
 {
-    return rlf_twist_at(t, rlf_twist_spin(t), p);
+    return rlf_add(rlf_vec3_make(t->x[0], t->x[1], t->x[2]),
+                   rlf_cross(rlf_twist_spin(t), rlf_sub(p, t->centre)));
 }
 
-/* A square of the image in one region: see motion/cells.c. */
-typedef struct rlf_cell {
-    float velocity[3];
-    float depth; /* of the limb that it holds, metres; 0 = none of the region */
-    int32_t state;
-} rlf_cell;
+typedef struct rlf_velocity {
+    float v[3]; /* m/s */
+} rlf_velocity;
 
-/* What is known of a cell: nothing of the region, nothing that fits, it rests, it moves with the
- * region, it moves by itself. */
-enum { RLF_CELL_EMPTY = 0, RLF_CELL_UNKNOWN, RLF_CELL_STILL, RLF_CELL_WHOLE, RLF_CELL_MOVES };
+static inline rlf_velocity rlf_velocity_make(double x, double y, double z)
+{
+    return (rlf_velocity){{(float)x, (float)y, (float)z}};
+}
 
-/* The cells of one region. */
-typedef struct rlf_cell_grid {
-    const rlf_flow *job;
-    const rlf_region *region;
-    const rlf_twist *twist;
-    bool moves; /* the twist is not 0 */
-    rlf_cell *cells;
-    int32_t size, columns, rows;
-    int32_t number; /* of the region, in the runs */
-} rlf_cell_grid;
-
-size_t rlf_cell_capacity(const image_grid *grid);
 /* Velocity of a region's pixels; `twist` is its motion as a whole, 0 unless it `moves`. */
 void rlf_velocity_cells(const rlf_flow *job, const rlf_region *region, const rlf_twist *twist,
                         bool moves);
 
-/* motion/write.c: writes the velocity of the region's pixels. */
-void rlf_cells_write(rlf_cell_grid *g);
-
-static const float rlf_flow_fastest = 5.0f; /* m/s */
 /* Half of a limb's breadth: within a window, what is farther off is another limb; a limb that is so
  * far beside where it was still fits it. */
 static const float rlf_flow_limb_m = 0.05f;
@@ -94,24 +71,18 @@ static inline rlf_vec3 rlf_flow_normal(const rlf_slot *slot, ptrdiff_t i)
     return rlf_vec3_make(slot->normal[0][i], slot->normal[1][i], slot->normal[2][i]);
 }
 
-/* Pixel of the frame before that saw point q, near pixel i, < 0 when none did. The step from i is
- * measured with the focal length: what distortion makes of it moves the pixel a little along the
- * surface, where the same normal makes the same of it. */
-static inline ptrdiff_t rlf_flow_pixel_before(const rlf_flow *job, ptrdiff_t i, float x, float y,
-                                              float z)
+/* Pixel that sees point p, which is near pixel i; -1 = none. The step from i is measured with the
+ * focal length: what distortion makes of it moves the pixel a little along the surface, where the
+ * same normal makes the same of it. */
+static inline ptrdiff_t rlf_flow_pixel(const image_grid *grid, ptrdiff_t i, rlf_vec3 p)
 {
-    const rlf_kernel_flow_view *w = &job->view;
-    if (!(z > 0.0f)) {
+    if (!(p.z > 0.0)) {
         return -1;
     }
-    float u = (float)(i % w->width) + (x / z - w->ray_x[i]) * w->fx;
-    float v = (float)(i / w->width) + (y / z - w->ray_y[i]) * w->fy;
-    if (!(u > -0.5f) || !(v > -0.5f) || !(u < (float)w->width - 0.5f) ||
-        !(v < (float)w->height - 0.5f)) {
-        return -1;
-    }
-    ptrdiff_t k = (ptrdiff_t)(int32_t)(v + 0.5f) * w->width + (int32_t)(u + 0.5f);
-    return w->seen[k] > 0.0f ? k : -1;
+    const double u = i % grid->width + (p.x / p.z - grid->ray_x[i]) * grid->camera.fx;
+    const double v = i / grid->width + (p.y / p.z - grid->ray_y[i]) * grid->camera.fy;
+    const bool is_in = u > -0.5 && v > -0.5 && u < grid->width - 0.5 && v < grid->height - 0.5;
+    return is_in ? (ptrdiff_t)(v + 0.5) * grid->width + (ptrdiff_t)(u + 0.5) : -1;
 }
 
 #endif

@@ -1,8 +1,6 @@
 /* The rigid motion of a keyframe into a frame: point-to-plane inside (Chen and Medioni 1991), along
  * the normals of the outline at its edge (Harris 1990, "RAPID"), by Gauss and Newton. */
-#include "math/solve_six.h"
 #include "surface/motion/keyframe.h"
-#include "surface/motion/rim.h"
 
 #include <math.h>
 #include <string.h>
@@ -41,7 +39,8 @@ static placed place(const rlf_keyframe *key, const double x[6])
 {
     placed out = {.key = key};
     const double s = 1.0 / key->length;
-    const rlf_quat q = rlf_quat_from_rotation_vector(rlf_vec3_make(s * x[3], s * x[4], s * x[5]));
+    const rlf_quat by = rlf_quat_from_rotation_vector(rlf_vec3_make(s * x[3], s * x[4], s * x[5]));
+    const rlf_quat q = rlf_quat_mul(by, key->turn);
     for (int c = 0; c < 3; c++) {
         const rlf_vec3 axis = {c == 0, c == 1, c == 2}, to = rlf_rotate(q, axis);
         out.r[0][c] = to.x;
@@ -65,13 +64,7 @@ static void add_row(keyframe_fit *fit, const rlf_keyframe *key, rlf_vec3 arm, rl
                     double off, double weight)
 {
     const rlf_vec3 turn = rlf_scale(rlf_cross(arm, n), 1.0 / key->length);
-    const double row[6] = {n.x, n.y, n.z, turn.x, turn.y, turn.z};
-    for (int r = 0; r < 6; r++) {
-        fit->b[r] += weight * row[r] * off;
-        for (int c = 0; c <= r; c++) {
-            fit->a[r][c] += weight * row[r] * row[c];
-        }
-    }
+    math_rigid_add(&fit->sums, n, turn, off, weight);
 }
 
 /* Pixel of a point; false out of view. u, v: where exactly. */
@@ -204,8 +197,7 @@ void keyframe_look(const keyframe_frame *frame, const rlf_keyframe *key, double 
                    keyframe_fit *fit)
 {
     const placed at = place(key, fit->x);
-    memset(fit->a, 0, sizeof(fit->a));
-    memset(fit->b, 0, sizeof(fit->b));
+    fit->sums = (math_rigid_sums){.weight = 0.0};
     fit->points = fit->rims = fit->agree = fit->rims_agree = 0;
     fit->cost = sigmas * sigmas * (key->point_count / points_shared + key->rim_count / rims_shared);
     for (int32_t k = 0; k < key->point_count; k++) {
@@ -216,28 +208,28 @@ void keyframe_look(const keyframe_frame *frame, const rlf_keyframe *key, double 
     }
 }
 
-/* The prior's information of each unknown, about the pose `start`. */
-static void priors(const keyframe_fit *fit, double out[6])
+/* The sums with the prior's information of each unknown, about the pose `start`. */
+static math_rigid_sums with_prior(const keyframe_fit *fit, const double start[6])
 {
-    const double turns = fit->a[3][3] + fit->a[4][4] + fit->a[5][5];
+    math_rigid_sums out = fit->sums;
+    const double turns = fit->sums.a[3][3] + fit->sums.a[4][4] + fit->sums.a[5][5];
     for (int k = 0; k < 6; k++) {
-        out[k] = rlf_max(1.0 / (loose_m * loose_m), k < 3 ? 0.0 : held_share * turns);
+        const double known = k < 3 ? 0.0 : held_share * turns;
+        const double prior = rlf_max(1.0 / (loose_m * loose_m), known);
+        out.a[k][k] += prior;
+        out.b[k] += prior * (start[k] - fit->x[k]);
     }
+    return out;
 }
 
 /* A step from fit->x; what nothing is seen of stays as it is in `start`. */
 static void step(const keyframe_frame *frame, const rlf_keyframe *key, const double start[6],
                  double slack, keyframe_fit *fit)
 {
-    double a[6][6], b[6], x[6], prior[6];
+    double x[6];
     keyframe_look(frame, key, slack, fit);
-    memcpy(a, fit->a, sizeof(a));
-    priors(fit, prior);
-    for (int k = 0; k < 6; k++) {
-        a[k][k] += prior[k];
-        b[k] = fit->b[k] + prior[k] * (start[k] - fit->x[k]);
-    }
-    math_solve_six(a, b, x);
+    const math_rigid_sums sums = with_prior(fit, start);
+    (void)math_rigid_solve(&sums, 0.0, x);
     for (int k = 0; k < 6; k++) {
         fit->x[k] += x[k];
     }
@@ -278,25 +270,22 @@ bool keyframe_agrees(const rlf_keyframe *key, const keyframe_fit *fit)
 double keyframe_off(const keyframe_frame *frame, const rlf_keyframe *key, const keyframe_fit *fit,
                     const double x[6], double out[6][6])
 {
-    double c[6][6], prior[6], y[6], sum = 0.0;
-    priors(fit, prior);
+    math_rigid_sums sums = with_prior(fit, fit->x), c;
+    double y[6], sum = 0.0;
     for (int k = 0; k < 6; k++) {
-        double a[6][6], unit[6] = {0};
-        memcpy(a, fit->a, sizeof(a));
-        for (int i = 0; i < 6; i++) {
-            a[i][i] += prior[i];
-        }
-        unit[k] = 1.0;
-        math_solve_six(a, unit, out[k]);
+        memset(sums.b, 0, sizeof(sums.b));
+        sums.b[k] = 1.0;
+        (void)math_rigid_solve(&sums, 0.0, out[k]);
         out[k][k] += key->scatter[k];
     }
-    memcpy(c, out, sizeof(c));
+    memcpy(c.a, out, sizeof(c.a));
+    memcpy(c.b, x, sizeof(c.b));
     const double px = shared_px * key->centre.z / frame->grid->camera.fx;
     const double far = shared_depth * key->centre.z;
     for (int k = 0; k < 6; k++) {
-        c[k][k] += k == 2 ? far * far + px * px : px * px;
+        c.a[k][k] += k == 2 ? far * far + px * px : px * px;
     }
-    math_solve_six(c, x, y);
+    (void)math_rigid_solve(&c, 0.0, y);
     for (int k = 0; k < 6; k++) {
         sum += x[k] * y[k];
     }

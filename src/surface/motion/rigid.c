@@ -7,20 +7,18 @@
  * (motion/cells.c). What is not significant against the sensor's noise is exactly 0.
  */
 #include "surface/motion/keyframe.h"
-#include "surface/motion/keyframe.h"
 #include "surface/motion/motion.h"
-
-#include "math/solve_six.h"
 
 #include <string.h>
 
-enum { STRIDE = 2, PASSES = 4, LEAST_REGION_SAMPLES = 30, MOST_SAMPLES = 400 };
+enum { STRIDE = 2, LEAST_REGION_SAMPLES = 30, MOST_SAMPLES = 400 };
 
 static const double longest_gap_s = 0.2;
 /* Share of a motion by which the normal's error makes it another. */
 static const double normal_error = 0.05;
 /* Squared sum of 6 normal variables that chance exceeds once in 400 times. */
 static const float significant_6 = 20.1f;
+
 /* The published planes hold only what was written into the slot three frames ago. */
 static void clear_velocity(const image_grid *grid, rlf_slot *slot)
 {
@@ -41,8 +39,8 @@ static bool speed_beyond(const rlf_flow *job, ptrdiff_t i, rlf_vec3 p, rlf_vec3 
 {
     const image_grid *grid = &job->stage->grid;
     rlf_vec3 q = rlf_mad(p, v, -(double)job->dt);
-    ptrdiff_t k = rlf_flow_pixel_before(job, i, (float)q.x, (float)q.y, (float)q.z);
-    if (k < 0) {
+    const ptrdiff_t k = rlf_flow_pixel(grid, i, q);
+    if (k < 0 || !(job->view.seen[k] > 0.0f)) {
         return false;
     }
     rlf_vec3 step = rlf_sub(q, rlf_flow_point(grid, job->before->depth, k));
@@ -50,124 +48,68 @@ static bool speed_beyond(const rlf_flow *job, ptrdiff_t i, rlf_vec3 p, rlf_vec3 
     return rlf_dot(step, step) < 4.0 * (double)(rlf_flow_limb_m * rlf_flow_limb_m);
 }
 
-static void twist_row(const rlf_twist *t, rlf_vec3 p, rlf_vec3 n, double row[6])
-{
-    rlf_vec3 turn = rlf_cross(rlf_sub(p, t->centre), n);
-    row[0] = n.x;
-    row[1] = n.y;
-    row[2] = n.z;
-    row[3] = turn.x / t->length;
-    row[4] = turn.y / t->length;
-    row[5] = turn.z / t->length;
-}
-
-/* What the sensor's noise makes of a speed, and the normal's error of the motion. */
-static double tolerated(const rlf_flow *job, ptrdiff_t i, double facing, double speed)
-{
-    double sigma = rlf_kernel_sigma(job->noise, job->now->depth[i]) / job->dt;
-    return 3.0 * 1.41421356 * sigma * facing + normal_error * speed;
-}
-
-/* Normal equations of a step of Gauss and Newton. */
-typedef struct twist_sum {
+/* A region's pixels against a motion of it. */
+typedef struct twist_look {
     const rlf_flow *job;
     const rlf_region *region;
     double slack; /* widens what agrees while the motion is still far off */
-    double speed; /* of the motion so far */
-    double a[6][6], b[6];
-} twist_sum;
+    math_rigid_sums sums;
+} twist_look;
 
-/* One seen speed `off` beyond the motion along the unit vector n at p; `sigma` is its noise. */
-static void add_row(twist_sum *sum, rlf_twist *t, rlf_vec3 p, rlf_vec3 n, double off, double sigma,
-                    double weight)
+static void add_pixel(twist_look *look, rlf_twist *t, double speed, ptrdiff_t i)
 {
-    double row[6], along = rlf_dot(n, rlf_twist_velocity(t, p));
-    t->noise += sigma * sigma;
-    t->explained += along * along;
-    twist_row(t, p, n, row);
-    for (int r = 0; r < 6; r++) {
-        sum->b[r] += weight * row[r] * off;
-        for (int c = 0; c <= r; c++) {
-            sum->a[r][c] += weight * row[r] * row[c];
-        }
-    }
-}
-
-static void add_pixel(twist_sum *sum, rlf_twist *t, ptrdiff_t i)
-{
-    const rlf_flow *job = sum->job;
+    const rlf_flow *job = look->job;
     t->samples++;
-    rlf_vec3 p = rlf_flow_point(&job->stage->grid, job->now->depth, i);
-    rlf_vec3 n = rlf_flow_normal(job->now, i);
-    double facing = -rlf_dot(n, p) / p.z, off;
-    if (!(facing > 0.0) || !speed_beyond(job, i, p, n, rlf_twist_velocity(t, p), &off)) {
+    const rlf_vec3 p = rlf_flow_point(&job->stage->grid, job->now->depth, i);
+    const rlf_vec3 n = rlf_flow_normal(job->now, i), v = rlf_twist_velocity(t, p);
+    const double facing = -rlf_dot(n, p) / p.z, along = rlf_dot(n, v);
+    double off;
+    if (!(facing > 0.0) || !speed_beyond(job, i, p, n, v, &off)) {
         return;
     }
-    double bound = sum->slack + tolerated(job, i, facing, sum->speed);
+    /* What the sensor's noise makes of a speed, and the normal's error of the motion. */
+    const double noise =
+        sqrt(2.0) * rlf_kernel_sigma(job->noise, job->now->depth[i]) / job->dt * facing;
+    const double bound = look->slack + 3.0 * noise + normal_error * speed;
     if (off <= bound && off >= -bound) {
-        double sigma = rlf_kernel_sigma(job->noise, job->now->depth[i]) / job->dt;
+        const rlf_vec3 turn = rlf_cross(rlf_sub(p, t->centre), n);
         t->inliers++;
-        add_row(sum, t, p, n, off, 1.41421356 * sigma * facing, 1.0);
+        t->noise += noise * noise;
+        t->explained += along * along;
+        math_rigid_add(&look->sums, n, rlf_scale(turn, 1.0 / t->length), off, 1.0);
     }
 }
 
-static void step(twist_sum *sum, rlf_twist *t)
+/* Sums over the pixels that agree with the motion. */
+static void look_at(twist_look *look, rlf_twist *t)
 {
-    double x[6];
-    for (int k = 0; k < 6; k++) {
-        sum->a[k][k] += (double)rlf_flow_ridge * (t->inliers + 1);
-    }
-    math_solve_six(sum->a, sum->b, x);
-    for (int k = 0; k < 6; k++) {
-        t->x[k] += x[k];
-    }
-}
-
-/* One step of Gauss and Newton over the pixels that agree with the motion so far. */
-static void fit_pass(const twist_sum *start, double slack, rlf_twist *t)
-{
-    twist_sum sum = *start;
-    const rlf_flow *job = sum.job;
-    const rlf_region *region = sum.region;
-    sum.slack = slack;
-    sum.speed = sqrt(t->x[0] * t->x[0] + t->x[1] * t->x[1] + t->x[2] * t->x[2]);
+    const rlf_flow *job = look->job;
+    const rlf_region *region = look->region;
+    const double speed = rlf_length(rlf_vec3_make(t->x[0], t->x[1], t->x[2]));
+    look->sums = (math_rigid_sums){.weight = 0.0};
     t->samples = t->inliers = 0;
     t->noise = t->explained = 0.0;
     for (int32_t v = region->y0; v < region->y1; v += t->stride) {
         for (int32_t u = region->x0; u < region->x1; u += t->stride) {
             ptrdiff_t i = (ptrdiff_t)v * job->stage->grid.width + u;
             if (job->now->label[i] == region->label && job->now->reason[i] == RLF_REASON_OK) {
-                add_pixel(&sum, t, i);
+                add_pixel(look, t, speed, i);
             }
         }
     }
-    step(&sum, t);
 }
 
-/* What agrees with rest. */
-static void count_rest(const twist_sum *start, rlf_twist *t)
+/* One step of Gauss and Newton. */
+static void step(twist_look *look, rlf_twist *t)
 {
-    const rlf_flow *job = start->job;
-    const image_grid *grid = &job->stage->grid;
-    const rlf_slot *now = job->now;
-    const rlf_region *region = start->region;
-    const rlf_kernel_rest_in in = {.label = now->label,
-                                   .reason = now->reason,
-                                   .depth = now->depth,
-                                   .normal = {now->normal[0], now->normal[1], now->normal[2]},
-                                   .ray_x = grid->ray_x,
-                                   .ray_y = grid->ray_y,
-                                   .before = job->view.seen,
-                                   .width = grid->width,
-                                   .x0 = region->x0,
-                                   .y0 = region->y0,
-                                   .x1 = region->x1,
-                                   .y1 = region->y1,
-                                   .stride = t->stride,
-                                   .own = region->label,
-                                   .noise = job->noise,
-                                   .reach = 2.0f * rlf_flow_limb_m};
-    rlf_kernel_rest_count(&in, &t->samples, &t->inliers);
+    double x[6];
+    for (int k = 0; k < 6; k++) {
+        look->sums.a[k][k] += (double)rlf_flow_ridge * (t->inliers + 1);
+    }
+    (void)math_rigid_solve(&look->sums, 0.0, x);
+    for (int k = 0; k < 6; k++) {
+        t->x[k] += x[k];
+    }
 }
 
 static rlf_twist start_from(const rlf_region *region, rlf_vec3 velocity)
@@ -182,12 +124,14 @@ static rlf_twist start_from(const rlf_region *region, rlf_vec3 velocity)
     return t;
 }
 
-static rlf_twist fit_from(const twist_sum *start, rlf_vec3 velocity)
+static rlf_twist fit_from(const rlf_flow *job, const rlf_region *region, rlf_vec3 velocity)
 {
-    const double slack[PASSES] = {1.0, 0.3, 0.1, 0.0};
-    rlf_twist t = start_from(start->region, velocity);
-    for (int pass = 0; pass < PASSES; pass++) {
-        fit_pass(start, slack[pass], &t);
+    static const double slack[] = {1.0, 0.3, 0.1, 0.0};
+    rlf_twist t = start_from(region, velocity);
+    for (size_t pass = 0; pass < sizeof(slack) / sizeof(slack[0]); pass++) {
+        twist_look look = {.job = job, .region = region, .slack = slack[pass]};
+        look_at(&look, &t);
+        step(&look, &t);
     }
     return t;
 }
@@ -243,16 +187,16 @@ static rlf_vec3 centroid_velocity(const rlf_flow *job, const rlf_region *region)
  * agree with is right. */
 static bool is_moving(const rlf_flow *job, const rlf_region *region, rlf_vec3 seen, rlf_twist *out)
 {
-    const twist_sum sum = {.job = job, .region = region};
+    twist_look look = {.job = job, .region = region};
     const rlf_vec3 none = {0, 0, 0};
     rlf_twist rest = start_from(region, none);
-    count_rest(&sum, &rest);
+    look_at(&look, &rest);
     if (10 * rest.inliers >= 9 * rest.samples) {
         return false; /* whatever the motion */
     }
-    *out = fit_from(&sum, none);
+    *out = fit_from(job, region, none);
     if (rlf_length(seen) > 0.0 && 5 * out->inliers < 4 * rest.samples) {
-        rlf_twist other = fit_from(&sum, seen);
+        rlf_twist other = fit_from(job, region, seen);
         *out = other.inliers > out->inliers ? other : *out;
     }
     /* Half of a pixel's noise: small errors that pixels share, from limbs that move by themselves,
@@ -291,43 +235,26 @@ static bool region_motion(const rlf_flow *job, rlf_region *region, rlf_twist *ou
     return key != NULL && key->is_whole && keyframe_motion(key, region, out);
 }
 
-/* Row y of the frame before, as far as something was in front: or was taken for background then,
- * and has left since. */
-static const uint8_t *front_before(const rlf_reconstruct *stage, int32_t y, rlf_span *span)
-{
-    bool is_all_front = stage->def.background_method == RLF_BACKGROUND_OFF;
-    int32_t width = stage->grid.width;
-    ptrdiff_t row = (ptrdiff_t)y * width;
-    const uint8_t *foreground = stage->previous->foreground + row;
-    const uint8_t *left = stage->background.depart.left;
-    const uint8_t *front = is_all_front ? stage->work.ones : foreground;
-    if (!is_all_front && left != NULL && rlf_kernel_next_mark(left + row, 0, width) < width) {
-        uint8_t *both = stage->velocity.is_steady + row;
-        for (int32_t x = 0; x < width; x++) {
-            both[x] = foreground[x] | left[row + x];
-        }
-        front = both;
-    }
-    *span = rlf_background_span(front, width);
-    return front;
-}
-
-/* The frame before as the samples of this one look at it. */
+/* The frame before as the samples of this one look at it: where something was in front, or was
+ * taken for background then, and has left since. */
 static rlf_kernel_flow_view look_back(const rlf_reconstruct *stage)
 {
     const image_grid *grid = &stage->grid;
     const rlf_slot *before = stage->previous;
-    float *seen = stage->velocity.seen;
+    const uint8_t *left = stage->background.depart.left;
+    const bool is_all_front = stage->def.background_method == RLF_BACKGROUND_OFF;
+    uint8_t *both = stage->velocity.is_steady;
     for (int32_t y = 0; y < grid->height; y++) {
-        rlf_span span;
-        const uint8_t *front = front_before(stage, y, &span);
-        ptrdiff_t i = (ptrdiff_t)y * grid->width + span.x0;
-        if (span.x0 < span.x1) {
-            rlf_kernel_front_row(before->depth + i, before->reason + i, front + span.x0,
-                                 span.x1 - span.x0, seen + i);
+        const ptrdiff_t row = (ptrdiff_t)y * grid->width;
+        const uint8_t *front = is_all_front ? stage->work.ones : before->foreground + row;
+        for (int32_t x = 0; x < grid->width && !is_all_front && left != NULL; x++) {
+            both[x] = before->foreground[row + x] | left[row + x];
+            front = both;
         }
+        rlf_kernel_front_row(before->depth + row, before->reason + row, front, grid->width,
+                             stage->velocity.seen + row);
     }
-    return (rlf_kernel_flow_view){.seen = seen,
+    return (rlf_kernel_flow_view){.seen = stage->velocity.seen,
                                   .ray_x = grid->ray_x,
                                   .ray_y = grid->ray_y,
                                   .width = grid->width,
@@ -335,18 +262,6 @@ static rlf_kernel_flow_view look_back(const rlf_reconstruct *stage)
                                   .fx = (float)grid->camera.fx,
                                   .fy = (float)grid->camera.fy,
                                   .limb = rlf_flow_limb_m};
-}
-
-/* Leaves the plane as it was, 0: what was written is still near at hand. */
-static void look_away(const rlf_reconstruct *stage)
-{
-    float *seen = stage->velocity.seen;
-    for (int32_t y = 0; y < stage->grid.height; y++) {
-        rlf_span span;
-        front_before(stage, y, &span);
-        memset(seen + (ptrdiff_t)y * stage->grid.width + span.x0, 0,
-               (size_t)(span.x1 - span.x0) * sizeof *seen);
-    }
 }
 
 /* Where the regions are. */
@@ -380,15 +295,4 @@ void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot)
         bool moves = region_motion(&job, region, &twist);
         rlf_velocity_cells(&job, region, &twist, moves);
     }
-    look_away(stage);
-}
-
-void velocity_allocate(velocity_planes *state, rlf_arena *arena, const image_grid *grid)
-{
-    size_t n = (size_t)grid->count;
-    state->seen = arena_take(arena, n, sizeof(float));
-    state->cells = arena_take(arena, rlf_cell_capacity(grid), sizeof *state->cells);
-    state->keyframe = arena_take(arena, RLF_KEYFRAMES, sizeof *state->keyframe);
-    arena_next_owner(arena);
-    state->is_steady = arena_lend(arena, n, 1);
 }

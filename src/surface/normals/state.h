@@ -2,7 +2,7 @@
 #ifndef RLF_SURFACE_NORMALS_STATE_H
 #define RLF_SURFACE_NORMALS_STATE_H
 
-#include "surface/arena.h"
+#include "base/arena.h"
 #include "surface/frame.h"
 
 enum { RLF_VOTE_MOST = 32 }; /* a second: as long may what was stay */

@@ -2,7 +2,7 @@
 #ifndef RLF_SURFACE_THICKNESS_STATE_H
 #define RLF_SURFACE_THICKNESS_STATE_H
 
-#include "surface/arena.h"
+#include "base/arena.h"
 #include "surface/frame.h"
 
 /* One published state of the background. It never changes while a surface refers to it. */

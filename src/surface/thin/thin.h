@@ -8,7 +8,7 @@
 #ifndef RLF_SURFACE_THIN_THIN_H
 #define RLF_SURFACE_THIN_THIN_H
 
-#include "surface/arena.h"
+#include "base/arena.h"
 #include "surface/frame.h"
 
 /* Metres. What is farther off is another thing; half a slab's width at least, and its thickness at

@@ -1,5 +1,5 @@
 /* One block of memory, large enough for large pages. */
-#include "surface/arena.h"
+#include "base/arena.h"
 
 #include "base/guard.h"
 

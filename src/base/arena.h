@@ -1,6 +1,6 @@
-/* The memory of a stage: one block, handed out plane by plane when it is made. */
-#ifndef RLF_SURFACE_ARENA_H
-#define RLF_SURFACE_ARENA_H
+/* Memory of a thing whose size is known when it is made: one block, handed out plane by plane. */
+#ifndef RLF_BASE_ARENA_H
+#define RLF_BASE_ARENA_H
 
 #include "relief/base.h"
 
