@@ -28,6 +28,13 @@ function(relief_settings target)
   # No path of the machine that builds it ends up in what is shipped.
   target_compile_options(${target} PRIVATE -ffile-prefix-map=${PROJECT_BINARY_DIR}/=build/
                          -ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)
+  if(WIN32) # what POSIX has and Windows has not comes before every source
+    set_target_properties(${target} PROPERTIES C_EXTENSIONS ON)
+    target_compile_definitions(${target} PRIVATE _FILE_OFFSET_BITS=64 __USE_MINGW_ANSI_STDIO=1
+                               _WIN32_WINNT=0x0601)
+    target_compile_options(${target} PRIVATE -isystem${PROJECT_SOURCE_DIR}/src/windows/include
+                           "SHELL:-include ${PROJECT_SOURCE_DIR}/src/windows/posix.h")
+  endif()
   if(RELIEF_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
@@ -119,6 +126,10 @@ endif()
 # marks is global. A user's program may then define any name without rlf_. Functions that exist once
 # per instruction set are named here: gcc shows them whatever the visibility says.
 function(relief_one_object target out)
+  if(WIN32) # whose objects know no hidden names
+    set(${out} $<TARGET_OBJECTS:${target}> PARENT_SCOPE)
+    return()
+  endif()
   set(object ${CMAKE_CURRENT_BINARY_DIR}/${target}_public.o)
   separate_arguments(flags NATIVE_COMMAND "${CMAKE_C_FLAGS}") # the target machine's
   add_custom_command(OUTPUT ${object}
