@@ -10,10 +10,10 @@ if(RELIEF_TARGET MATCHES "mingw32$")
   set(CMAKE_SYSTEM_NAME Windows)
   set(CMAKE_C_COMPILER ${RELIEF_TARGET}-gcc-posix) # with pthreads
   set(CMAKE_RC_COMPILER ${RELIEF_TARGET}-windres)
-  set(sysroot_libraries ${RELIEF_SYSROOT}/lib)
+  set(sysroot_libraries ${RELIEF_SYSROOT}/usr/lib)
   # One file that runs on any Windows.
   set(CMAKE_EXE_LINKER_FLAGS_INIT -static)
-  set(CMAKE_FIND_ROOT_PATH ${RELIEF_SYSROOT} /usr/${RELIEF_TARGET})
+  set(CMAKE_FIND_ROOT_PATH ${RELIEF_SYSROOT}/usr /usr/${RELIEF_TARGET})
   set(CMAKE_CROSSCOMPILING_EMULATOR /usr/lib/wine/wine64)
 else()
   set(CMAKE_SYSTEM_NAME Linux)

@@ -16,6 +16,13 @@ int win_mkdir(const char *path, int mode)
     return CreateDirectoryW(wide, NULL) ? 0 : win_fail();
 }
 
+char *win_mkdtemp(char *pattern)
+{
+    wchar_t wide[WIDE_MAX];
+    const bool is_made = _mktemp(pattern) != NULL && win_wide(pattern, wide);
+    return is_made && CreateDirectoryW(wide, NULL) ? pattern : NULL;
+}
+
 int win_rename(const char *from, const char *to)
 {
     wchar_t wide_from[WIDE_MAX], wide_to[WIDE_MAX];

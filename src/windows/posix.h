@@ -55,6 +55,7 @@ ssize_t win_readlink(const char *path, char *out, size_t size);
 int win_fcntl(int descriptor, int command);
 int win_flock(int descriptor, int operation);
 FILE *win_open_memstream(char **out_text, size_t *out_size);
+char *win_mkdtemp(char *pattern);
 
 #undef stat
 #undef fstat
@@ -74,6 +75,7 @@ FILE *win_open_memstream(char **out_text, size_t *out_size);
 #define fcntl win_fcntl
 #define flock win_flock
 #define open_memstream win_open_memstream
+#define mkdtemp win_mkdtemp
 
 #define F_GETFD 1
 #define LOCK_EX 2
