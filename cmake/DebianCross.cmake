@@ -19,14 +19,11 @@ else()
   set(CMAKE_SYSTEM_NAME Linux)
   set(CMAKE_C_COMPILER ${RELIEF_TARGET}-gcc)
   set(CMAKE_SYSROOT ${RELIEF_SYSROOT})
-  if(RELIEF_TARGET MATCHES "^i686")
-    # Results are of IEEE singles and doubles: the x87 rounds to neither. An amd64 runs this itself.
-    set(CMAKE_C_FLAGS_INIT "-msse2 -mfpmath=sse")
+  if(RELIEF_TARGET MATCHES "^i686") # an amd64 runs this itself
     set(sysroot_libraries ${RELIEF_SYSROOT}/usr/lib/i386-linux-gnu)
     set(CMAKE_CROSSCOMPILING_EMULATOR ${RELIEF_SYSROOT}/lib/ld-linux.so.2 --library-path
         ${sysroot_libraries}:${RELIEF_SYSROOT}/lib/i386-linux-gnu)
-  elseif(RELIEF_TARGET MATCHES "^arm-")
-    # Advanced SIMD of ARMv7 flushes subnormals, so gcc leaves floats to the VFP.
+  elseif(RELIEF_TARGET MATCHES "^arm-") # gcc leaves floats to the VFP: NEON here flushes subnormals
     set(CMAKE_CROSSCOMPILING_EMULATOR qemu-arm -L ${RELIEF_SYSROOT})
   else()
     set(CMAKE_CROSSCOMPILING_EMULATOR qemu-${CMAKE_SYSTEM_PROCESSOR} -L ${RELIEF_SYSROOT})

@@ -25,6 +25,13 @@ function(relief_settings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wvla -Wundef
                          -Wstrict-prototypes -Wmissing-prototypes -ffp-contract=off
                          $<$<CONFIG:Release>:-O3 -fno-math-errno -fno-trapping-math>)
+  # Floats are IEEE singles and doubles: 32-bit x86 would have the x87's, and gcc for s390 has doubles
+  # where the standard lets it.
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(i.86|x86)" AND CMAKE_SIZEOF_VOID_P EQUAL 4)
+    target_compile_options(${target} PRIVATE -msse2 -mfpmath=sse)
+  elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^s390" AND CMAKE_C_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -fexcess-precision=fast)
+  endif()
   # No path of the machine that builds it ends up in what is shipped.
   target_compile_options(${target} PRIVATE -ffile-prefix-map=${PROJECT_BINARY_DIR}/=build/
                          -ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)
