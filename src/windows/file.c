@@ -10,6 +10,15 @@
 #undef open
 #undef fopen
 
+/* _wopen refuses folders; who opens one here wants to see that it is none of its files. */
+static int open_folder(const wchar_t *wide)
+{
+    HANDLE handle = CreateFileW(wide, FILE_READ_ATTRIBUTES,
+                                FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, NULL,
+                                OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, NULL);
+    return handle != INVALID_HANDLE_VALUE ? _open_osfhandle((intptr_t)handle, 0) : win_fail();
+}
+
 int win_open(const char *path, int flags, ...)
 {
     wchar_t wide[WIDE_MAX];
@@ -19,6 +28,11 @@ int win_open(const char *path, int flags, ...)
     va_end(arguments);
     if (!win_wide(path, wide)) {
         return -1;
+    }
+    const DWORD attributes = GetFileAttributesW(wide);
+    if (attributes != INVALID_FILE_ATTRIBUTES && (attributes & FILE_ATTRIBUTE_DIRECTORY) != 0 &&
+        (flags & (O_WRONLY | O_RDWR)) == 0) {
+        return open_folder(wide);
     }
     return _wopen(wide, flags | _O_BINARY, mode & (_S_IREAD | _S_IWRITE));
 }

@@ -63,7 +63,7 @@ expect 0 '' relief record synthetic:room 'a clip\of mine/' --frames 4
 [ -f 'a clip/of mine/camera.json' ] || fail "no clip in 'a clip/of mine'"
 expect 0 '' relief info 'a clip\of mine'
 expect 0 '' relief run 'a clip\of mine' --headless --log 'logs of the clip'
-expect 1 'cannot be written while it is read' relief record 'a clip\of mine' 'a clip\of mine/'
+expect 2 'cannot be written while it is read' relief record 'a clip\of mine' 'a clip\of mine/'
 
 # Arrays; a file that is there is replaced.
 for i in 1 2; do
