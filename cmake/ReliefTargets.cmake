@@ -25,9 +25,23 @@ function(relief_settings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wvla -Wundef
                          -Wstrict-prototypes -Wmissing-prototypes -ffp-contract=off
                          $<$<CONFIG:Release>:-O3 -fno-math-errno -fno-trapping-math>)
+  # Floats are IEEE singles and doubles: 32-bit x86 would have the x87's, and gcc for s390 has doubles
+  # where the standard lets it.
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(i.86|x86)" AND CMAKE_SIZEOF_VOID_P EQUAL 4)
+    target_compile_options(${target} PRIVATE -msse2 -mfpmath=sse)
+  elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^s390" AND CMAKE_C_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -fexcess-precision=fast)
+  endif()
   # No path of the machine that builds it ends up in what is shipped.
   target_compile_options(${target} PRIVATE -ffile-prefix-map=${PROJECT_BINARY_DIR}/=build/
                          -ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)
+  if(WIN32) # what POSIX has and Windows has not comes before every source
+    set_target_properties(${target} PROPERTIES C_EXTENSIONS ON)
+    target_compile_definitions(${target} PRIVATE _FILE_OFFSET_BITS=64 __USE_MINGW_ANSI_STDIO=1
+                               _WIN32_WINNT=0x0601)
+    target_compile_options(${target} PRIVATE -isystem${PROJECT_SOURCE_DIR}/src/windows/include
+                           "SHELL:-include ${PROJECT_SOURCE_DIR}/src/windows/posix.h")
+  endif()
   if(RELIEF_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
@@ -137,6 +151,10 @@ endif()
 # marks is global. A user's program may then define any name without rlf_. Functions that exist once
 # per instruction set are named here: gcc shows them whatever the visibility says.
 function(relief_one_object target out)
+  if(WIN32) # whose objects know no hidden names
+    set(${out} $<TARGET_OBJECTS:${target}> PARENT_SCOPE)
+    return()
+  endif()
   set(object ${CMAKE_CURRENT_BINARY_DIR}/${target}_public.o)
   separate_arguments(flags NATIVE_COMMAND "${CMAKE_C_FLAGS}") # the target machine's
   add_custom_command(OUTPUT ${object}

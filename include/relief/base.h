@@ -20,7 +20,7 @@ extern "C" {
 #define RLF_VERSION_PATCH 0 /* counts those that break none */
 
 /* Marks what the libraries show; everything else in them is hidden. */
-#if defined(__GNUC__)
+#if defined(__GNUC__) && !defined(_WIN32)
 #define RLF_API __attribute__((visibility("default")))
 #else
 #define RLF_API
@@ -33,7 +33,10 @@ extern "C" {
 #define RLF_COLD
 #endif
 
-#if defined(__GNUC__)
+#if defined(__MINGW32__) /* not the formats of Windows' own C library */
+#define RLF_PRINTF(format_index, first_index)                                                      \
+    __attribute__((format(gnu_printf, format_index, first_index)))
+#elif defined(__GNUC__)
 #define RLF_PRINTF(format_index, first_index)                                                      \
     __attribute__((format(printf, format_index, first_index)))
 #else

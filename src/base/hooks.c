@@ -1,6 +1,5 @@
 /* Log, assert and allocator hooks, the only global state of the library, and how failures are told.
  */
-#define _DEFAULT_SOURCE
 #include "relief/base.h"
 
 #include "base/error_line.h"
@@ -11,16 +10,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
 
 #define ALIGNMENT 64
-
-/* Blocks that fill some of them ask for pages of this size: with pages of 4 KiB a frame's planes
- * need more entries of address translation than a processor holds. */
-#define LARGE_PAGE ((size_t)2 << 20)
-#define LARGE_BLOCK (2 * LARGE_PAGE)
 
 static void log_to_stderr(void *context, rlf_log_level level, const char *line)
 {
@@ -39,29 +30,6 @@ static bool assert_default(void *context, const char *condition, const char *fil
 #else
     return true;
 #endif
-}
-
-void *rlf_default_alloc(void *context, size_t size)
-{
-    (void)context;
-#ifdef MADV_HUGEPAGE
-    if (size >= LARGE_BLOCK) {
-        size_t rounded = (size + LARGE_PAGE - 1) / LARGE_PAGE * LARGE_PAGE;
-        void *memory = rounded >= size ? aligned_alloc(LARGE_PAGE, rounded) : NULL;
-        if (memory != NULL) {
-            madvise(memory, rounded, MADV_HUGEPAGE); /* a wish: refused, it is memory as any */
-        }
-        return memory;
-    }
-#endif
-    size_t rounded = (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
-    return rounded >= size ? aligned_alloc(ALIGNMENT, rounded) : NULL;
-}
-
-void rlf_default_free(void *context, void *memory)
-{
-    (void)context;
-    free(memory);
 }
 
 static rlf_log_fn log_fn = log_to_stderr;

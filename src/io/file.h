@@ -6,10 +6,6 @@
 
 #include <stdio.h>
 
-#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
-#error "the writers of NPY, PLY and PNG assume a little-endian machine"
-#endif
-
 #define IO_PATH_MAX 4096 /* bytes of a path, with its ending zero */
 
 /* Content of a file in memory; `name` is what error lines call it. */
@@ -68,6 +64,8 @@ typedef struct io_out_file {
 /* Opens; refuses folders. */
 rlf_result io_out_open(io_out_file *file, const char *path);
 rlf_result io_out_write(io_out_file *file, const void *data, size_t size);
+/* `count` numbers of `size` bytes, little-endian. */
+rlf_result io_out_write_numbers(io_out_file *file, const void *numbers, size_t count, size_t size);
 /* RLF_OK given: flushes, closes and gives the file its name. An error given, or met: removes the
  * part file. Returns the first error. */
 rlf_result io_out_close(io_out_file *file, rlf_result result);

@@ -1,6 +1,7 @@
 /* NumPy arrays, format version 1.0 (NEP 1). */
 #include "relief/io.h"
 #include "io/file.h"
+#include "io/little.h"
 
 #include <string.h>
 
@@ -58,7 +59,8 @@ rlf_result rlf_npy_write(const char *path, rlf_npy_type type, const void *data,
     }
     result = io_out_write(&file, header, header_size);
     if (result == RLF_OK) {
-        result = io_out_write(&file, data, (size_t)size);
+        const size_t each = type == RLF_NPY_U8 ? 1 : 4;
+        result = io_out_write_numbers(&file, data, (size_t)size / each, each);
     }
     return io_out_close(&file, result);
 }

@@ -3,6 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "io/file.h"
 
+#include "io/little.h"
 #include "io/reading.h"
 #include "relief/io.h"
 
@@ -97,6 +98,26 @@ rlf_result io_out_write(io_out_file *file, const void *data, size_t size)
         file->write_errno = errno != 0 ? errno : EIO;
     }
     return file->write_errno == 0 ? RLF_OK : fail_write(file);
+}
+
+rlf_result io_out_write_numbers(io_out_file *file, const void *numbers, size_t count, size_t size)
+{
+    uint8_t part[4096];
+    const size_t most = sizeof(part) / size;
+    const uint8_t *from = numbers;
+    rlf_result result = RLF_OK;
+    if (!IO_IS_BIG_ENDIAN) {
+        return io_out_write(file, numbers, count * size);
+    }
+    while (count > 0 && result == RLF_OK) {
+        const size_t some = count < most ? count : most;
+        memcpy(part, from, some * size);
+        io_little(part, some, size);
+        result = io_out_write(file, part, some * size);
+        from += some * size;
+        count -= some;
+    }
+    return result;
 }
 
 rlf_result io_out_finish(io_out_file *file, rlf_result result)

@@ -1,6 +1,7 @@
 /* Surfaces as binary PLY (Turk 1994): points with normals, and triangles. */
 #include "relief/io.h"
 #include "io/file.h"
+#include "io/little.h"
 
 #include <string.h>
 
@@ -71,6 +72,7 @@ static rlf_result write_vertices(ply_writer *w)
             rlf_vec3 p = rlf_surface_point(s, i);
             float values[6] = {(float)p.x,     (float)p.y,     (float)p.z,
                                s->normal_x[i], s->normal_y[i], s->normal_z[i]};
+            io_little(values, 6, sizeof(values[0]));
             memcpy(chunk[filled++], values, sizeof(values));
         }
         if (filled == CHUNK || i + 1 == pixels) {
@@ -94,6 +96,7 @@ static rlf_result write_faces(ply_writer *w)
             const uint32_t *t = &w->indices[i * 3];
             int32_t face[3] = {w->vertex_of[t[0]] - 1, w->vertex_of[t[1]] - 1,
                                w->vertex_of[t[2]] - 1};
+            io_little(face, 3, sizeof(face[0]));
             chunk[filled * FACE_SIZE] = 3;
             memcpy(&chunk[filled * FACE_SIZE + 1], face, sizeof(face));
             filled++;

@@ -9,6 +9,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 set(public_base base)
+set(public_windows base) # in place of POSIX: memory
 set(public_math base math)
 set(public_image base image)
 set(public_camera base math image camera frame) # of the value: what is checked of it
@@ -31,6 +32,7 @@ set(public_io ${public_pipeline} synthetic synthetic_hands io backend)
 set(public_viewer ${public_io} gl window)
 
 set(internal_base "")
+set(internal_windows "")
 set(internal_math base)
 set(internal_image base)
 set(internal_camera base math kernel)

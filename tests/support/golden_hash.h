@@ -5,6 +5,8 @@
 #include "relief/pipeline.h"
 #include "relief/synthetic.h"
 
+#include <string.h>
+
 typedef struct golden {
     rlf_profile profile;
     uint64_t surface; /* of all planes of every `every`-th frame */
@@ -22,6 +24,20 @@ static inline uint64_t golden_bytes(uint64_t hash, const void *data, size_t size
     return hash;
 }
 
+/* The same of 32-bit numbers, lowest byte first on every machine. */
+static inline uint64_t golden_numbers(uint64_t hash, const void *data, size_t count)
+{
+    const unsigned char *bytes = data;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t number;
+        memcpy(&number, bytes + 4 * i, sizeof(number));
+        for (int k = 0; k < 32; k += 8) {
+            hash = (hash ^ (number >> k & 0xFF)) * UINT64_C(1099511628211);
+        }
+    }
+    return hash;
+}
+
 static inline uint64_t golden_surface(uint64_t hash, const rlf_surface *s)
 {
     size_t count = (size_t)s->width * (size_t)s->height;
@@ -29,9 +45,9 @@ static inline uint64_t golden_surface(uint64_t hash, const rlf_surface *s)
                                    s->normal_z,   s->velocity_x, s->velocity_y,
                                    s->velocity_z, s->thickness,  s->background_depth};
     for (size_t i = 0; i < sizeof(planes) / sizeof(planes[0]); i++) {
-        hash = golden_bytes(hash, planes[i], count * sizeof(float));
+        hash = golden_numbers(hash, planes[i], count);
     }
-    hash = golden_bytes(hash, s->label, count * sizeof(int32_t));
+    hash = golden_numbers(hash, s->label, count);
     hash = golden_bytes(hash, s->reason, count);
     return golden_bytes(hash, s->foreground, count);
 }

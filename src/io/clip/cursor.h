@@ -2,6 +2,7 @@
 #ifndef RLF_IO_CLIP_CURSOR_H
 #define RLF_IO_CLIP_CURSOR_H
 
+#include "io/little.h"
 #include "relief/base.h"
 
 #include <string.h>
@@ -40,7 +41,7 @@ static inline uint32_t cursor_u32(cursor *c)
     uint32_t value = 0;
     const uint8_t *at = cursor_take(c, sizeof(value));
     if (at != NULL) {
-        memcpy(&value, at, sizeof(value));
+        io_little_read(at, &value, sizeof(value));
     }
     return value;
 }
@@ -50,7 +51,7 @@ static inline uint64_t cursor_u64(cursor *c)
     uint64_t value = 0;
     const uint8_t *at = cursor_take(c, sizeof(value));
     if (at != NULL) {
-        memcpy(&value, at, sizeof(value));
+        io_little_read(at, &value, sizeof(value));
     }
     return value;
 }
@@ -60,7 +61,7 @@ static inline float cursor_f32(cursor *c)
     float value = 0.0f;
     const uint8_t *at = cursor_take(c, sizeof(value));
     if (at != NULL) {
-        memcpy(&value, at, sizeof(value));
+        io_little_read(at, &value, sizeof(value));
     }
     return value;
 }
@@ -70,7 +71,7 @@ static inline double cursor_f64(cursor *c)
     double value = 0.0;
     const uint8_t *at = cursor_take(c, sizeof(value));
     if (at != NULL) {
-        memcpy(&value, at, sizeof(value));
+        io_little_read(at, &value, sizeof(value));
     }
     return value;
 }

@@ -3,6 +3,7 @@
 #define RLF_IO_CODEC_BYTE_BUFFER_H
 
 #include "relief/base.h"
+#include "io/little.h"
 
 #include <string.h>
 
@@ -27,21 +28,24 @@ static inline void io_byte_buffer_grow(io_byte_buffer *buffer, size_t size)
     buffer->size += size;
 }
 
-/* Little-endian numbers, as this machine has them (see io/file.h). */
+/* Little-endian numbers. */
 static inline void io_put_u8(io_byte_buffer *b, uint8_t value)
 {
     io_byte_buffer_add(b, &value, sizeof(value));
 }
 static inline void io_put_u16(io_byte_buffer *b, uint16_t value)
 {
+    io_little(&value, 1, sizeof(value));
     io_byte_buffer_add(b, &value, sizeof(value));
 }
 static inline void io_put_u32(io_byte_buffer *b, uint32_t value)
 {
+    io_little(&value, 1, sizeof(value));
     io_byte_buffer_add(b, &value, sizeof(value));
 }
 static inline void io_put_u64(io_byte_buffer *b, uint64_t value)
 {
+    io_little(&value, 1, sizeof(value));
     io_byte_buffer_add(b, &value, sizeof(value));
 }
 

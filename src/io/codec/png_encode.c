@@ -1,6 +1,7 @@
 /* PNG to memory through libpng. Its errors come back by longjmp, so everything that must survive
  * one lives in a struct outside the function that calls setjmp. */
 #include "io/codec/picture_encode.h"
+#include "io/little.h"
 
 #include <png.h>
 #include <stdio.h>
@@ -51,7 +52,7 @@ static void encode(writer *w)
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_compression_level(w->png, d->level);
     png_write_info(w->png, w->info);
-    if (d->pixels == IO_PNG_GREY_U16) {
+    if (d->pixels == IO_PNG_GREY_U16 && !IO_IS_BIG_ENDIAN) {
         png_set_swap(w->png); /* PNG is big-endian */
     }
     if (d->pixels == IO_PNG_RGB) {

@@ -1,5 +1,6 @@
 /* RVL: from bytes to depth. The bytes may be anything. */
 #include "io/codec/rvl.h"
+#include "io/little.h"
 
 #include <string.h>
 
@@ -16,7 +17,7 @@ static inline void refill(nibble_reader *r)
 {
     if (r->bits <= 32 && r->end - r->data >= 4) {
         uint32_t word;
-        memcpy(&word, r->data, 4);
+        io_little_read(r->data, &word, 4);
         r->data += 4;
         r->ahead |= (uint64_t)word << (32 - r->bits);
         r->bits += 32;

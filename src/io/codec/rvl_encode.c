@@ -1,5 +1,6 @@
 /* RVL: from depth to bytes, and the tables. */
 #include "io/codec/rvl.h"
+#include "io/little.h"
 
 #include <string.h>
 
@@ -16,7 +17,8 @@ static inline void put(nibble_writer *w, uint32_t code, uint32_t bits)
     w->waiting = w->waiting << bits | code;
     w->bits += bits;
     const uint32_t rest = w->bits & 31;
-    const uint32_t word = (uint32_t)(w->waiting >> rest);
+    uint32_t word = (uint32_t)(w->waiting >> rest);
+    io_little(&word, 1, sizeof(word));
     memcpy(w->out, &word, 4);
     w->out += w->bits >> 5 << 2;
     w->bits = rest;

@@ -1,6 +1,7 @@
 /* Meshes of rooms as PLY (Turk 1994) and OBJ. */
 #include "io/map/mesh_file.h"
 #include "relief/io.h"
+#include "io/little.h"
 
 #include <string.h>
 
@@ -16,6 +17,7 @@ static rlf_result write_ply_vertices(io_out_file *file, const rlf_map_mesh *mesh
         uint8_t *out = &chunk[filled++ * size];
         memcpy(out, &mesh->position[3 * i], 3 * sizeof(float));
         memcpy(out + 3 * sizeof(float), &mesh->normal[3 * i], 3 * sizeof(float));
+        io_little(out, 6, sizeof(float));
         if (mesh->rgba != NULL) {
             memcpy(out + PLACE, &mesh->rgba[4 * i], 3);
         }
@@ -38,6 +40,7 @@ static rlf_result write_ply_faces(io_out_file *file, const rlf_map_mesh *mesh)
     for (size_t i = 0; i < mesh->triangle_count; i++) {
         chunk[filled * FACE] = 3;
         memcpy(&chunk[filled * FACE + 1], &mesh->index[3 * i], 3 * sizeof(uint32_t));
+        io_little(&chunk[filled * FACE + 1], 3, sizeof(uint32_t));
         filled++;
         if (filled == CHUNK || i + 1 == mesh->triangle_count) {
             rlf_result result = io_out_write(file, chunk, filled * FACE);

@@ -1,5 +1,6 @@
 /* Meshes of rooms as binary glTF 2.0. */
 #include "io/map/mesh_file.h"
+#include "io/little.h"
 
 #include <string.h>
 
@@ -87,6 +88,7 @@ static rlf_result write_turned(io_out_file *file, const float *vectors, size_t c
             chunk[k][1] = -v[1];
             chunk[k][2] = -v[2];
         }
+        io_little(chunk, 3 * part, sizeof(float));
         result = io_out_write(file, chunk, part * sizeof(chunk[0]));
     }
     return result;
@@ -102,8 +104,10 @@ static rlf_result write_head(io_out_file *file, char *json, size_t length, size_
         return rlf_fail(RLF_ERROR_UNSUPPORTED, "%s: a .glb holds at most 4 GB; write a .ply",
                         file->path);
     }
-    const uint32_t head[5] = {GLB_MAGIC, 2, (uint32_t)all, (uint32_t)length, GLB_JSON};
-    const uint32_t next[2] = {(uint32_t)binary, GLB_BINARY};
+    uint32_t head[5] = {GLB_MAGIC, 2, (uint32_t)all, (uint32_t)length, GLB_JSON};
+    uint32_t next[2] = {(uint32_t)binary, GLB_BINARY};
+    io_little(head, 5, sizeof(head[0]));
+    io_little(next, 2, sizeof(next[0]));
     rlf_result result = io_out_write(file, head, sizeof(head));
     if (result == RLF_OK) {
         result = io_out_write(file, json, length);
@@ -126,5 +130,6 @@ rlf_result io_mesh_write_glb(io_out_file *file, const rlf_map_mesh *mesh)
     if (result == RLF_OK && s.color > 0) {
         result = io_out_write(file, mesh->rgba, s.color);
     }
-    return result == RLF_OK ? io_out_write(file, mesh->index, s.index) : result;
+    return result == RLF_OK ? io_out_write_numbers(file, mesh->index, 3 * mesh->triangle_count, 4)
+                            : result;
 }

@@ -1,5 +1,6 @@
 /* Common Data Representation. */
 #include "io/mcap/cdr.h"
+#include "io/little.h"
 
 #define HEAD 4
 
@@ -34,7 +35,11 @@ void io_cdr_put_u32(io_cdr_writer *w, uint32_t value)
 void io_cdr_put_doubles(io_cdr_writer *w, const double *values, size_t count)
 {
     align(w, 8);
-    io_byte_buffer_add(w->buffer, values, count * sizeof(values[0]));
+    for (size_t i = 0; i < count; i++) {
+        double value = values[i];
+        io_little(&value, 1, sizeof(value));
+        io_byte_buffer_add(w->buffer, &value, sizeof(value));
+    }
 }
 
 void io_cdr_put_text(io_cdr_writer *w, const char *text)
@@ -51,7 +56,8 @@ size_t io_cdr_begin_bytes(io_cdr_writer *w)
 
 void io_cdr_end_bytes(io_cdr_writer *w, size_t begin)
 {
-    const uint32_t size = (uint32_t)(w->buffer->size - begin);
+    uint32_t size = (uint32_t)(w->buffer->size - begin);
+    io_little(&size, 1, sizeof(size));
     if (!w->buffer->is_short) {
         memcpy(w->buffer->data + begin - sizeof(size), &size, sizeof(size));
     }
@@ -93,7 +99,7 @@ static void take_number(io_cdr_reader *r, void *out, size_t size)
     const uint8_t *data = take(r, size, size);
     uint8_t *bytes = out;
     for (size_t i = 0; i < size; i++) {
-        bytes[i] = data == NULL ? 0 : data[r->is_swapped ? size - 1 - i : i];
+        bytes[i] = data == NULL ? 0 : data[r->is_swapped != IO_IS_BIG_ENDIAN ? size - 1 - i : i];
     }
 }
 

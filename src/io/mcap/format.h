@@ -57,10 +57,12 @@ static inline const uint8_t *io_mcap_take(io_mcap_cursor *c, uint64_t size)
 
 static inline uint64_t io_mcap_take_number(io_mcap_cursor *c, size_t size)
 {
-    uint64_t value = 0; /* little-endian, as this machine is (see io/file.h) */
+    uint64_t value = 0;
     const uint8_t *data = io_mcap_take(c, size);
     if (data != NULL) {
-        memcpy(&value, data, size);
+        for (size_t i = 0; i < size; i++) {
+            value |= (uint64_t)data[i] << 8 * i;
+        }
     }
     return value;
 }

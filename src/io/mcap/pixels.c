@@ -4,6 +4,7 @@
 #include "io/picture/picture.h"
 #include "io/pixels/compressed_depth.h"
 #include "io/pixels/pixels.h"
+#include "io/little.h"
 
 /* compressed_depth_image_transport: what kind, and two floats that turn counts into inverse depth.
  */
@@ -106,7 +107,7 @@ static rlf_result decode_raw_depth(const char *name, const io_ros_image *image, 
     for (int32_t y = 0; y < height; y++) {
         uint8_t *to = (uint8_t *)out + (size_t)y * row;
         memcpy(to, rows + (size_t)y * step, row);
-        for (size_t i = 0; image->is_bigendian && i < row; i += bytes) {
+        for (size_t i = 0; image->is_bigendian != IO_IS_BIG_ENDIAN && i < row; i += bytes) {
             for (size_t b = 0; b < bytes / 2; b++) {
                 const uint8_t byte = to[i + b];
                 to[i + b] = to[i + bytes - 1 - b];
@@ -133,6 +134,7 @@ static rlf_result decode_inverse(const io_ros_decoder *decoder, const io_ros_ima
         return fail_size(decoder->name, image, width, height);
     }
     memcpy(parameters, image->data.data + 4, sizeof(parameters));
+    io_little(parameters, 2, sizeof(parameters[0]));
     rlf_result result = decode_counts(decoder, image, width, height, decoder->counts);
     for (size_t i = 0; result == RLF_OK && i < (size_t)width * (size_t)height; i++) {
         const uint16_t count = decoder->counts[i];

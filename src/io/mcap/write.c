@@ -1,6 +1,7 @@
 /* Writing MCAP files. */
 #define _POSIX_C_SOURCE 200809L
 #include "io/mcap/writer.h"
+#include "io/little.h"
 
 #include <errno.h>
 #include <unistd.h>
@@ -23,6 +24,7 @@ size_t io_mcap_begin_record(io_byte_buffer *b, io_mcap_op op)
 
 void io_mcap_set_u64(io_byte_buffer *b, size_t at, uint64_t value)
 {
+    io_little(&value, 1, sizeof(value));
     if (!b->is_short) {
         memcpy(b->data + at, &value, sizeof(value));
     }

@@ -7,6 +7,7 @@
 #include "io/oni/oni_index.h"
 
 #include "io/file.h"
+#include "io/little.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -50,11 +51,20 @@ static bool take(fields *f, void *out, size_t size)
     return true;
 }
 
+static bool take_numbers(fields *f, void *out, size_t count, size_t size)
+{
+    if (!take(f, out, count * size)) {
+        return false;
+    }
+    io_little(out, count, size);
+    return true;
+}
+
 /* A text with its length in front. */
 static bool take_name(fields *f, char out[NAME_MAX_SIZE])
 {
     uint32_t size = 0;
-    if (!take(f, &size, 4) || size == 0 || size > NAME_MAX_SIZE || !take(f, out, size)) {
+    if (!take_numbers(f, &size, 1, 4) || size == 0 || size > NAME_MAX_SIZE || !take(f, out, size)) {
         return false;
     }
     out[size - 1] = '\0';
@@ -75,7 +85,7 @@ static void add_node(oni_index *index, const record *r, fields *f)
     char name[NAME_MAX_SIZE];
     uint32_t type = 0;
     uint32_t codec = 0;
-    if (!take_name(f, name) || !take(f, &type, 4) || !take(f, &codec, 4)) {
+    if (!take_name(f, name) || !take_numbers(f, &type, 1, 4) || !take_numbers(f, &codec, 1, 4)) {
         return;
     }
     oni_node *node = type == NODE_DEPTH ? &index->depth : type == NODE_IMAGE ? &index->color : NULL;
@@ -110,17 +120,17 @@ static void set_property(oni_node *node, const record *r, fields *f)
     uint64_t number = 0;
     uint32_t mode[3];
     double fov[2];
-    if (node == NULL || node->count > 0 || !take_name(f, name) || !take(f, &size, 4)) {
+    if (node == NULL || node->count > 0 || !take_name(f, name) || !take_numbers(f, &size, 1, 4)) {
         return;
     }
     if (r->type == RECORD_INT) {
-        if (take(f, &number, 8)) {
+        if (take_numbers(f, &number, 1, 8)) {
             set_number(node, name, number);
         }
-    } else if (strcmp(name, "xnMapOutputMode") == 0 && take(f, mode, sizeof(mode))) {
+    } else if (strcmp(name, "xnMapOutputMode") == 0 && take_numbers(f, mode, 3, sizeof(mode[0]))) {
         node->width = mode[0] <= INT32_MAX ? (int32_t)mode[0] : 0;
         node->height = mode[1] <= INT32_MAX ? (int32_t)mode[1] : 0;
-    } else if (strcmp(name, "xnFOV") == 0 && take(f, fov, sizeof(fov))) {
+    } else if (strcmp(name, "xnFOV") == 0 && take_numbers(f, fov, 2, sizeof(fov[0]))) {
         node->fov_x = fov[0];
         node->fov_y = fov[1];
     }
@@ -154,8 +164,9 @@ static rlf_result add_picture(oni_node *node, const char *name, const record *r,
 {
     uint64_t time_us = 0;
     uint32_t number = 0;
-    if (node == NULL || r->payload_size == 0 || !take(f, &time_us, 8) || !take(f, &number, 4) ||
-        time_us > INT64_MAX / 1000 || (time_us == 0 && number == 0)) {
+    if (node == NULL || r->payload_size == 0 || !take_numbers(f, &time_us, 1, 8) ||
+        !take_numbers(f, &number, 1, 4) || time_us > INT64_MAX / 1000 ||
+        (time_us == 0 && number == 0)) {
         return RLF_OK;
     }
     rlf_result result = grow(node, name);
@@ -192,8 +203,11 @@ static bool read_record(const io_file *file, int64_t *position, uint32_t header_
 {
     f->size = 0;
     f->at = 0;
-    if (!read_at(file, *position, out, sizeof(*out)) || out->magic != RECORD_MAGIC ||
-        out->fields_size < header_size) {
+    if (!read_at(file, *position, out, sizeof(*out))) {
+        return false;
+    }
+    io_little(out, sizeof(*out) / sizeof(out->magic), sizeof(out->magic));
+    if (out->magic != RECORD_MAGIC || out->fields_size < header_size) {
         return false;
     }
     const int64_t begin = *position + header_size;

@@ -3,6 +3,7 @@
 
 #include "io/number.h"
 #include "io/pcd/lzf.h"
+#include "io/little.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -41,11 +42,11 @@ static float number_at(const uint8_t *at, const io_pcd_field *f)
 {
     if (f->size == 8) {
         double value;
-        memcpy(&value, at, sizeof(value));
+        io_little_read(at, &value, sizeof(value));
         return (float)value;
     }
     float value;
-    memcpy(&value, at, sizeof(value));
+    io_little_read(at, &value, sizeof(value));
     return value;
 }
 
@@ -62,7 +63,7 @@ static void take_color_bytes(const uint8_t *first, size_t step, size_t count, ui
 {
     for (size_t i = 0; i < count; i++) {
         uint32_t bits;
-        memcpy(&bits, first + i * step, sizeof(bits));
+        io_little_read(first + i * step, &bits, sizeof(bits));
         put_color(out + 4 * i, bits);
     }
 }
@@ -96,6 +97,7 @@ static rlf_result read_compressed(const io_bytes *file, const io_pcd_header *h, 
         return fail(file, "is cut short");
     }
     memcpy(sizes, file->data + h->data_offset, sizeof(sizes));
+    io_little(sizes, 2, sizeof(sizes[0]));
     const size_t there = file->size - h->data_offset - sizeof(sizes);
     if (sizes[0] > there) {
         return fail(file, "is cut short");

@@ -1,6 +1,7 @@
 /* PNG from memory through libpng. Its errors come back by longjmp, so everything that must survive
  * one lives in a struct outside the function that calls setjmp. */
 #include "io/picture/picture.h"
+#include "io/little.h"
 
 #include <png.h>
 #include <string.h>
@@ -93,7 +94,9 @@ static void decode(reader *r)
     png_read_info(r->png, r->info);
     if (r->u16_channels > 0) {
         check_is_u16(r);
-        png_set_swap(r->png); /* PNG is big-endian */
+        if (!IO_IS_BIG_ENDIAN) { /* as PNG is */
+            png_set_swap(r->png);
+        }
     } else {
         set_rgba(r);
     }

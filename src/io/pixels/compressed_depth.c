@@ -3,6 +3,7 @@
 
 #include "io/picture/picture.h"
 #include "io/pixels/pixels.h"
+#include "io/little.h"
 
 #include <string.h>
 
@@ -12,7 +13,7 @@
 static float float_at(const uint8_t *at)
 {
     float value;
-    memcpy(&value, at, sizeof(value));
+    io_little_read(at, &value, sizeof(value));
     return value;
 }
 
@@ -67,6 +68,7 @@ bool io_compressed_depth_size(const io_bytes *file, const char *format, int32_t 
     }
     if (file->size >= HEADER_SIZE + RVL_SIZE) {
         memcpy(size, file->data + HEADER_SIZE, sizeof(size));
+        io_little(size, 2, sizeof(size[0]));
     }
     *out_width = size[0];
     *out_height = size[1];
@@ -83,6 +85,7 @@ static rlf_result decode_rvl(const io_rvl *rvl, const io_bytes *file, int32_t wi
         return fail_short(file);
     }
     memcpy(size, file->data + HEADER_SIZE, sizeof(size));
+    io_little(size, 2, sizeof(size[0]));
     if (size[0] != width || size[1] != height) {
         return rlf_fail(RLF_ERROR_FORMAT,
                         "%s: the depth picture is %d x %d but the calibration is for %d x %d: give "

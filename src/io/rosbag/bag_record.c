@@ -1,5 +1,6 @@
 /* Records of a bag: a header of named fields, then data. */
 #include "io/rosbag/bag_parts.h"
+#include "io/little.h"
 
 /* Headers hold a topic's name and a few numbers. */
 #define HEADER_MAX 65536u
@@ -67,13 +68,17 @@ bool bag_read_at(const bag *self, int64_t position, void *out, size_t size)
 bool bag_read_record(bag *self, int64_t position, bag_record *out)
 {
     uint32_t header_size = 0;
-    if (!bag_read_at(self, position, &header_size, 4) || header_size > HEADER_MAX ||
+    if (!bag_read_at(self, position, &header_size, 4)) {
+        return false;
+    }
+    io_little(&header_size, 1, sizeof(header_size));
+    if (header_size > HEADER_MAX ||
         io_buffer_reserve(&self->message, (size_t)header_size + 4) != RLF_OK ||
         !bag_read_at(self, position + 4, self->message.data, (size_t)header_size + 4)) {
         return false;
     }
     bag_parse_header((cursor){self->message.data, header_size, false}, out);
-    memcpy(&out->data_size, self->message.data + header_size, 4);
+    io_little_read(self->message.data + header_size, &out->data_size, 4);
     out->data = 8 + (int64_t)header_size;
     return out->data_size <= self->file.size - position - out->data;
 }

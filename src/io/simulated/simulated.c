@@ -29,9 +29,9 @@ typedef struct simulated {
 
 static _Atomic(io_open_fn) open_source;
 
-void io_simulated_lend_open(io_open_fn open)
+void io_simulated_lend_open(io_open_fn opener)
 {
-    atomic_store(&open_source, open);
+    atomic_store(&open_source, opener);
 }
 
 static double clock_s(void)

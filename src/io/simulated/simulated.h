@@ -8,6 +8,6 @@ typedef rlf_result (*io_open_fn)(const char *source, rlf_pool *pool, rlf_source 
 
 /* Lends it the function that opens what it plays. It cannot call it by name: that function knows
  * all back ends, this one among them. Thread-safe. */
-void io_simulated_lend_open(io_open_fn open);
+void io_simulated_lend_open(io_open_fn opener);
 
 #endif

@@ -1,0 +1,1 @@
+/* flock: windows/posix.h, which every source has. */
