@@ -149,7 +149,8 @@ endif()
 
 # relief_one_object(TARGET OUT): the objects of a static library as one, in which only what RLF_API
 # marks is global. A user's program may then define any name without rlf_. Functions that exist once
-# per instruction set are named here: gcc shows them whatever the visibility says.
+# per instruction set are named here: gcc shows them whatever the visibility says. Archives of
+# RELIEF_INSIDE_FILES become a part of it.
 function(relief_one_object target out)
   if(WIN32) # whose objects know no hidden names
     set(${out} $<TARGET_OBJECTS:${target}> PARENT_SCOPE)
@@ -160,9 +161,10 @@ function(relief_one_object target out)
   add_custom_command(OUTPUT ${object}
     COMMAND ${CMAKE_C_COMPILER} ${flags} -r -nostdlib -o ${object} -Wl,--whole-archive
             $<TARGET_FILE:${target}> -Wl,--no-whole-archive
+            $<TARGET_PROPERTY:${target},RELIEF_INSIDE_FILES>
     COMMAND ${CMAKE_OBJCOPY} --localize-hidden --wildcard --keep-global-symbol=rlf_*
             --localize-symbol=rlf_kernel_* --localize-symbol=*.resolver ${object}
-    DEPENDS ${target} VERBATIM)
+    DEPENDS ${target} VERBATIM COMMAND_EXPAND_LISTS)
   set_source_files_properties(${object} PROPERTIES EXTERNAL_OBJECT TRUE GENERATED TRUE)
   set(${out} ${object} PARENT_SCOPE)
 endfunction()
@@ -193,6 +195,12 @@ function(relief_library target name kind object)
     target_compile_definitions(${library} INTERFACE ${definitions})
   endif()
   get_target_property(needed ${target} LINK_LIBRARIES)
+  get_target_property(inside ${target} RELIEF_INSIDE)
+  if(inside)
+    list(REMOVE_ITEM needed ${inside})
+    get_target_property(others ${target} RELIEF_PUBLIC_LIBRARIES)
+    list(APPEND needed ${others})
+  endif()
   foreach(item IN LISTS needed)
     if(item MATCHES "^relief(_gl|_io|_sim)?$")
       target_link_libraries(${library} PUBLIC ${item}_${kind})
