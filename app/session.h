@@ -45,7 +45,7 @@ typedef struct session {
     rlf_map *map; /* that is known; NULL = none */
     rlf_pipeline *pipeline;
     rlf_reconstruct_def reconstruct; /* that the pipeline was made with */
-    rlf_playback *playback;              /* the source's; NULL = it is not played */
+    rlf_playback *playback;          /* the source's; NULL = it is not played */
     recorder *recorder;              /* NULL = nothing is recorded; close it for its status */
 } session;
 

@@ -186,7 +186,8 @@ function(relief_library target name kind object)
                         OUTPUT_NAME ${target} VERSION ${PROJECT_VERSION}
                         SOVERSION ${relief_soversion} INSTALL_RPATH "${relief_rpath}")
   if(kind STREQUAL "shared")
-    target_link_options(${library} PRIVATE LINKER:-Bsymbolic-functions LINKER:-z,defs)
+    target_link_options(${library} PRIVATE LINKER:-Bsymbolic-functions LINKER:-z,defs
+                        LINKER:--version-script,${PROJECT_SOURCE_DIR}/cmake/librelief.map)
   endif()
   target_include_directories(${library} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)

@@ -22,7 +22,8 @@ GROUPS = (
                "docs/troubleshooting.md")),
     ("Use", ("docs/cameras.md", "docs/calibration.md", "docs/scenes.md", "docs/hands.md", "docs/moving.md", "docs/map.md",
              "docs/window.md", "docs/python.md", "docs/extending.md", "examples/README.md")),
-    ("Know", ("docs/conventions.md", "docs/formats.md", "docs/limits.md", "docs/architecture.md", "docs/dependencies.md",
+    ("Know", ("docs/conventions.md", "docs/formats.md", "docs/limits.md", "docs/architecture.md", "docs/abi.md", "docs/dependencies.md",
+              "docs/portability.md",
               "docs/measuring.md", "docs/results.md", "docs/experiments.md", "docs/thesis.md", "docs/tracking.md",
               "CONTRIBUTING.md", "CHANGELOG.md")),
 )  # fmt: skip

@@ -1,7 +1,7 @@
 # The installed package is found, and whole: -DBUILD= -DPYTHON= -DWORK= [-DFOLDER=]
 file(REMOVE_RECURSE ${WORK})
-execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK} --component python
-                COMMAND_ERROR_IS_FATAL ANY OUTPUT_QUIET)
+execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}
+                COMMAND_ERROR_IS_FATAL ANY OUTPUT_QUIET) # the shared libraries, too
 file(GLOB module ${WORK}/lib/python3*/*-packages/relief/_relief*.so ${WORK}/${FOLDER}/relief/_relief*.so)
 list(LENGTH module count)
 if(count EQUAL 0)
