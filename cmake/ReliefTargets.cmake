@@ -8,13 +8,11 @@ find_package(PkgConfig)
 set(relief_dl_libs ${CMAKE_DL_LIBS})
 list(TRANSFORM relief_dl_libs PREPEND "-l")
 
-# A test of a sanitizer build is linked in a fifth of the time.
-if(RELIEF_SANITIZE)
-  include(CheckLinkerFlag)
-  check_linker_flag(C -fuse-ld=gold RELIEF_HAS_GOLD)
-  if(RELIEF_HAS_GOLD)
-    add_link_options(-fuse-ld=gold)
-  endif()
+# A test is linked in a fifth of the time.
+include(CheckLinkerFlag)
+check_linker_flag(C -fuse-ld=gold RELIEF_HAS_GOLD)
+if(RELIEF_HAS_GOLD AND RELIEF_SANITIZE)
+  add_link_options(-fuse-ld=gold)
 endif()
 
 # relief_settings(TARGET): C17 without extensions, warnings, and exact floating point: no contraction
