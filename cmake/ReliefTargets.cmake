@@ -9,8 +9,10 @@ set(relief_dl_libs ${CMAKE_DL_LIBS})
 list(TRANSFORM relief_dl_libs PREPEND "-l")
 
 # A test is linked in a fifth of the time.
-include(CheckLinkerFlag)
-check_linker_flag(C -fuse-ld=gold RELIEF_HAS_GOLD)
+if(NOT CMAKE_CROSSCOMPILING)
+  include(CheckLinkerFlag)
+  check_linker_flag(C -fuse-ld=gold RELIEF_HAS_GOLD)
+endif()
 if(RELIEF_HAS_GOLD AND RELIEF_SANITIZE)
   add_link_options(-fuse-ld=gold)
 endif()
