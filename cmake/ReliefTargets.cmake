@@ -130,12 +130,13 @@ if(PROJECT_VERSION_MAJOR EQUAL 0)
 endif()
 
 # The kinds of library that RELIEF_LIBRARIES asks for; the first one is what relief::NAME means. An
-# installer gets both; a project that builds Relief within itself what BUILD_SHARED_LIBS says. With a
-# sanitizer every program must have it, too, so there the archive is enough.
+# installer gets both, on Windows the archive; a project that builds Relief within itself what
+# BUILD_SHARED_LIBS says. With a sanitizer every program must have it, too, so there the archive is
+# enough.
 set(default static)
 if(BUILD_SHARED_LIBS)
   set(default shared)
-elseif(PROJECT_IS_TOP_LEVEL AND NOT RELIEF_SANITIZE AND NOT DEFINED BUILD_SHARED_LIBS)
+elseif(PROJECT_IS_TOP_LEVEL AND NOT RELIEF_SANITIZE AND NOT WIN32 AND NOT DEFINED BUILD_SHARED_LIBS)
   set(default both)
 endif()
 set(RELIEF_LIBRARIES ${default} CACHE STRING "Libraries for users: static, shared or both")
@@ -185,7 +186,7 @@ function(relief_library target name kind object)
   set_target_properties(${library} PROPERTIES LINKER_LANGUAGE C EXPORT_NAME ${name}_${kind}
                         OUTPUT_NAME ${target} VERSION ${PROJECT_VERSION}
                         SOVERSION ${relief_soversion} INSTALL_RPATH "${relief_rpath}")
-  if(kind STREQUAL "shared")
+  if(kind STREQUAL "shared" AND NOT WIN32)
     target_link_options(${library} PRIVATE LINKER:-Bsymbolic-functions LINKER:-z,defs
                         LINKER:--version-script,${PROJECT_SOURCE_DIR}/cmake/librelief.map)
   endif()
