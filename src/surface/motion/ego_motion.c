@@ -24,7 +24,7 @@ static const double gates_m[] = {0.3, 0.15, 0.05, 0.0, 0.0};
 static const double tukey = 4.685;      /* sigmas; 95 % efficient (Holland and Welsch 1977) */
 static const double rest_square = 1.5;  /* of sigmas, mean: 1 is noise alone */
 static const double rest_sigmas = 3.0;  /* what is nearer to rest than that is at rest */
-static const double told_square = 16.0; /* sigmas of a part's motion, squared */
+static const double told_square = 64.0; /* sigmas of a part's motion, squared */
 static const double off_share = 0.25;   /* of the motion that a point may be off: it is curved */
 static const double least_gain = 0.5;   /* of a part's motion that must be gained over rest */
 /* More than this share of the parts moves, and of those that would show the motion; or, of all, the
@@ -140,7 +140,6 @@ static void ask(const ego_job *job, const rlf_pose *pose, ego_part parts[PARTS])
         part->off_rest += at_rest;
         part->resting += at_rest < rest_sigmas * rest_sigmas;
         part->fitting += off < bound && off > -bound;
-        part->resting += square_of(off_rest, sigma) < rest_sigmas * rest_sigmas;
         part->said += square_of(said, sigma);
         part->gain += at_rest - fit;
     }
@@ -168,17 +167,14 @@ static bool is_determined(const ego_job *job, const bool marked[PARTS])
     return is;
 }
 
-/* One large thing leaves some of the picture at rest. Where most neither rests nor moves with the
- * camera, somebody walks by: that says nothing. */
+/* One large thing leaves some of the picture at rest. */
 static bool is_everywhere(const ego_job *job, const ego_part parts[PARTS])
 {
     bool moves[PARTS] = {false};
     int32_t seen = 0, asked = 0, moving = 0;
     for (int32_t k = 0; k < PARTS; k++) {
         const ego_part *part = &parts[k];
-        const bool is_other =
-            2 * part->fitting <= part->points && 2 * part->resting <= part->points;
-        const bool is_seen = part->points >= FEWEST_OF_PART && !is_other;
+        const bool is_seen = part->points >= FEWEST_OF_PART;
         const bool is_asked = is_seen && part->said > told_square;
         moves[k] = is_asked && 2 * part->fitting > part->points && part->gain > told_square &&
                    part->gain > least_gain * part->said;
