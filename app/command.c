@@ -8,13 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+const char *command_program = "relief";
+
 int command_usage(const char *command, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    fprintf(stderr, "relief %s: ", command);
+    fprintf(stderr, "%s %s: ", command_program, command);
     vfprintf(stderr, format, arguments);
-    fprintf(stderr, " (see `relief %s --help`)\n", command);
+    fprintf(stderr, " (see `%s %s --help`)\n", command_program, command);
     va_end(arguments);
     return EXIT_USAGE;
 }
@@ -27,13 +29,14 @@ int command_set(const char *command, setting_list *s, const char *text)
 
 int command_failed(void)
 {
-    fprintf(stderr, "relief: %s\n", rlf_error_text());
+    fprintf(stderr, "%s: %s\n", command_program, rlf_error_text());
     return EXIT_FAILED;
 }
 
 int command_stopped(const char *command)
 {
-    fprintf(stderr, "relief %s: stopped before the end; nothing was written\n", command);
+    fprintf(stderr, "%s %s: stopped before the end; nothing was written\n", command_program,
+            command);
     return 128 + command_interrupted;
 }
 

@@ -13,6 +13,9 @@
 #define EXIT_FAILED 1
 #define EXIT_USAGE 2
 
+/* The program's name in messages; dispatch sets it. */
+extern const char *command_program;
+
 /* The signal's number after Ctrl-C, SIGTERM or SIGHUP; loops look at it once per frame and then
  * close their files. */
 extern volatile sig_atomic_t command_interrupted;

@@ -2,12 +2,6 @@
 #ifndef RELIEF_APP_COMMANDS_H
 #define RELIEF_APP_COMMANDS_H
 
-typedef struct subcommand {
-    const char *name;
-    int (*main)(int argc, char **argv);
-    const char *summary;
-} subcommand;
-
 /* One per subcommand; argv[0] is the subcommand's name. */
 int run_main(int argc, char **argv);
 /* As `relief run` without a SOURCE; -1 where there is no window to choose one in. */
@@ -19,9 +13,6 @@ int fuse_main(int argc, char **argv);
 int info_main(int argc, char **argv);
 int sources_main(int argc, char **argv);
 int scenes_main(int argc, char **argv);
-int eval_main(int argc, char **argv);
-int bench_main(int argc, char **argv);
-int measure_main(int argc, char **argv);
 int calibrate_main(int argc, char **argv);
 int settings_main(int argc, char **argv);
 

@@ -3,7 +3,7 @@
 #ifndef RELIEF_APP_COMPLETE_H
 #define RELIEF_APP_COMPLETE_H
 
-#include "commands.h"
+#include "dispatch.h"
 
 /* `words` are those behind "relief", the last one being the one that is completed, perhaps "".
  * Prints one line for each word that could stand there, "WORD<tab>what it is"; a word that ends in

@@ -18,7 +18,7 @@ static void print_help(void)
            "examples:\n"
            "  relief settings\n"
            "  relief run synthetic:room --set smoothing=off --view normals\n"
-           "  relief eval --scene room --set hold=off\n",
+           "  relief-lab eval --scene room --set hold=off\n",
            COMMAND_PLUGIN_HELP);
 }
 

@@ -24,7 +24,7 @@ GROUPS = (
              "docs/window.md", "docs/python.md", "docs/extending.md", "examples/README.md")),
     ("Know", ("docs/conventions.md", "docs/formats.md", "docs/limits.md", "docs/architecture.md", "docs/abi.md", "docs/dependencies.md",
               "docs/portability.md",
-              "docs/measuring.md", "docs/results.md", "docs/experiments.md", "docs/thesis.md", "docs/tracking.md",
+              "lab/measuring.md", "lab/results.md", "lab/experiments.md", "docs/thesis.md", "docs/tracking.md",
               "CONTRIBUTING.md", "CHANGELOG.md")),
 )  # fmt: skip
 

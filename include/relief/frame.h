@@ -13,7 +13,7 @@ extern "C" {
 
 /* Standard deviation of depth along z: sigma(z) = c0 + c1 z + c2 z^2, metres, z in metres, of one
  * pixel from frame to frame on a still surface. Tolerances everywhere are multiples of it.
- * Defaults: Kinect v2 after Fankhauser et al. 2015 (frontal surfaces); `relief measure --noise`
+ * Defaults: Kinect v2 after Fankhauser et al. 2015 (frontal surfaces); `relief-lab measure --noise`
  * fits it to a camera of your own. */
 typedef struct rlf_depth_noise {
     double c0, c1, c2; /* metres, 1, 1/metre */

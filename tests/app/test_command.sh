@@ -35,7 +35,7 @@ expect_done()
 }
 
 # ---- help and usage ---------------------------------------------------------------------------------
-for command in "" run record place export info sources scenes settings calibrate eval measure bench; do
+for command in "" run record place export info sources scenes settings calibrate fuse; do
     # shellcheck disable=SC2086 # the empty one must vanish
     "$relief" $command --help >stdout.txt 2>stderr.txt || fail "$command --help: status $?"
     grep -q "usage: relief" stdout.txt || fail "$command --help: no usage"
@@ -52,16 +52,14 @@ env -u DISPLAY -u WAYLAND_DISPLAY "$relief" >stdout.txt 2>stderr.txt
 status=$?
 [ "$status" -eq 2 ] && [ ! -s stdout.txt ] && grep -q "^usage: relief COMMAND" stderr.txt ||
     fail "relief alone: status $status, $(cat stdout.txt stderr.txt)"
-for command in run record place export info sources scenes settings calibrate eval measure bench; do
+for command in run record place export info sources scenes settings calibrate fuse; do
     expect_done "$command" --help
     cp stdout.txt help.txt
     expect_done help "$command"
     cmp -s stdout.txt help.txt || fail "help $command: $(head -n 1 stdout.txt)"
 done
 expect_done help
-awk '/^to measure/ { measures = 1 } /^  (run|record|scenes) / && !measures { user++ }
-    /^  (eval|measure|bench) / && measures { other++ } END { exit user != 3 || other != 3 }' stdout.txt ||
-    fail "help: what users need is not first: $(cat stdout.txt)"
+grep -qE "eval|bench" stdout.txt && fail "help: the laboratory is among what users need: $(cat stdout.txt)"
 
 # A wrong name: the near one, and what there is.
 expect_error 2 "no command 'fly': there are help, run, " fly
@@ -90,7 +88,6 @@ expect_error 2 "ends in .map" fuse "$small" --save o.ply
 expect_error 2 "ends in .txt" fuse "$small" --trajectory o.json
 expect_error 2 "ends with .ply" fuse "$small" --out o.stl
 expect_error 2 "ends in .json" info "$small" --json o.csv
-expect_error 2 "ends in .csv" measure "$small" --csv o.json
 expect_error 2 "a folder, not" export "$small" --what depth --out o.npy
 ls o o.* 2>/dev/null && fail "a name that lies was used"
 expect_error 2 "headless takes no value" run "synthetic:room?color=96x54" --headless=1
@@ -101,7 +98,6 @@ expect_error 2 "of flying_removal, fill, " run synthetic:room --set smell=on
 expect_error 2 "did you mean 'depth'" export synthetic:room --out o --what dept
 expect_error 2 "there are .*matte, .*true_depth" export synthetic:room --out o --what smell
 expect_error 2 "did you mean 'rain'? there are bounce, " run synthetic:room --scene rian
-expect_error 2 "there are room, empty, " eval --scene xyzzy
 expect_error 1 "use room, empty, thesis" run synthetic:moon --headless
 expect_error 1 'did you mean "realsense:"' run realsens
 expect_error 1 'no kind of source "nope:". This build has synthetic ' run nope:
@@ -177,9 +173,7 @@ export RELIEF_OPENCV_LIBRARY=/nowhere
 expect_error 1 "libopencv-calib3d-dev" calibrate synthetic:room
 unset RELIEF_OPENCV_LIBRARY
 expect_error 2 "off or on" run synthetic:room --set fill=maybe
-expect_error 2 "off or average or adaptive" measure synthetic:room --set background_method=lucky
 expect_error 2 "a count" export synthetic:room --set min_region_points=1.5
-expect_error 2 "a number" eval --set depth_max_m=far
 expect_error 1 "depth_min_m is nan" run "synthetic:room?color=96x54" --headless --frames 1 --set depth_min_m=nan
 expect_done settings "synthetic:thesis?color=96x54"
 grep -q "^steadying  *on  *off" stdout.txt || fail "settings: not listed"
@@ -201,7 +195,6 @@ expect_error 2 "not an array" export synthetic:room --out o --what smell
 expect_error 2 "needs --out" export synthetic:room
 expect_error 2 "needs --scene" export synthetic:room --out o --what matte
 expect_error 2 "unknown option '--fast'" run synthetic:room --fast
-expect_error 2 "--json needs a value" eval --json
 expect_error 2 "A:B" export synthetic:room --out o --what depth --frames 5:3
 
 # ---- what the world can get wrong -----------------------------------------------------------------------
@@ -284,63 +277,6 @@ __EGL_VENDOR_LIBRARY_DIRS=/nonexistent "$relief" run "synthetic:room?color=96x54
 grep -q "going on with the soft" stderr.txt || fail "no OpenGL: $(cat stderr.txt)"
 diff -r soft no_gl >stdout.txt || fail "no OpenGL: other pictures: $(cat stdout.txt)"
 
-# Table 5.1 of any source.
-expect_error 2 "--scale" measure synthetic:thesis --scale 8,zero
-expect_error 1 "has no end" measure "synthetic:thesis?color=96x54&frames=-1"
-expect_error 1 "too few frames" measure "synthetic:thesis?color=96x54&frames=4"
-expect_error 1 "no/table.json" measure synthetic:thesis --json no/table.json
-expect_error 1 "no/table.csv" measure synthetic:thesis --csv no/table.csv
-expect_error 1 "has no frames" measure "synthetic:room?color=96x54&frames=0" --noise
-expect_done measure "synthetic:thesis?color=96x54&frames=12" --csv table.csv --json table.json
-[ "$(wc -l <table.csv)" -eq 9 ] || fail "measure: table.csv rows"
-grep -q '"cpu"' table.json || fail "measure: table.json names no machine"
-grep -q '"counted_bad_percent"' table.json || fail "measure: table.json"
-grep -q "3392" stdout.txt || fail "measure: no full 64x53 grid"
-grep -q "2632" stdout.txt || fail "measure: no 56x47 centre"
-expect_error 2 "use 6 or more" measure synthetic:thesis --frames 5
-expect_error 2 "goes without" measure synthetic:empty --up --noise
-expect_error 1 "has no frames" measure "synthetic:room?color=96x54&frames=0" --up
-expect_done measure "$small" --up --frames 2
-grep -q "looks down by 0.0 degrees" stdout.txt || fail "measure --up: $(cat stdout.txt)"
-expect_done measure "$small" --noise --frames 2 --json noise.json
-grep -q '"temporal_mm"' noise.json || fail "measure --noise: noise.json"
-
-# Accuracy.
-expect_error 2 "not one of them" eval --scene moon
-expect_error 2 "live, thesis or both" eval --profile ours
-expect_error 2 "--seeds" eval --seeds 0
-expect_error 1 "no/eval.json" eval --json no/eval.json
-expect_error 1 "no_such_frames" eval --normals no_such_frames
-expect_done eval --real no_such_clips --json real.json
-grep -q "SKIPPED, there is no folder no_such_clips" stdout.txt || fail "eval: $(cat stdout.txt)"
-grep -q '"real": \[\]' real.json || fail "eval: real.json"
-expect_done eval --scene plate --profile live --seeds 2 --json eval.json
-grep -q "0 outside it" stdout.txt || fail "eval: $(cat stdout.txt)"
-grep -q '"commit"' eval.json || fail "eval: eval.json names no machine"
-grep -q '"ci95"' eval.json || fail "eval: eval.json"
-expect_done eval --scene empty --profile thesis --seeds 1 --frames 20 --threads 1
-grep -q "normals, interior" stdout.txt || fail "eval --scene empty: $(cat stdout.txt)"
-
-# Time and memory.
-expect_error 2 "--frames" bench --frames 0
-expect_error 2 "no argument" bench synthetic:room
-expect_error 1 "no/bench.json" bench --json no/bench.json
-expect_error 1 "no_such.json" bench --compare no_such.json
-printf '{"rows": [{"group": "live_1", "na' >cut.json
-expect_error 1 "cut.json: is damaged" bench --compare cut.json
-expect_error 1 "peers.txt" bench --peers peers.txt
-expect_done bench --source "synthetic:room?color=96x54" --frames 2 --quick --json bench.json
-grep -q "surface / floor" stdout.txt || fail "bench: $(cat stdout.txt)"
-grep -q '"isa"' bench.json || fail "bench: bench.json names no machine"
-grep -q '"surface/background"' bench.json || fail "bench: bench.json"
-expect_done bench --source "synthetic:room?color=96x54" --frames 1 --quick --compare bench.json
-grep -q "memory/whole .* 1.00$" stdout.txt || fail "bench --compare: $(cat stdout.txt)"
-
-expect_error 1 "no/clip.raw" bench --peer-clip no/clip.raw
-expect_done bench --peer-clip clip.raw
-head -n 1 clip.raw | head -c 11 | grep -q "512 424 60 " || fail "bench --peer-clip: $(head -n 1 clip.raw)"
-rm -f clip.raw clip.raw.gt
-
 # Same input, same bits, whatever the number of threads.
 "$relief" run "synthetic:room?color=96x54&frames=20" --headless --hash --threads 1 --quiet >hash1.txt
 "$relief" run "synthetic:room?color=96x54&frames=20" --headless --hash --threads 3 --quiet >hash3.txt
@@ -381,20 +317,6 @@ wait $pid
 [ -s long.y4m ] || fail "interrupted run: no video"
 ls ./*.part >/dev/null 2>&1 && fail "interrupted run: .part left"
 tail -c 1 long_log/frames.csv | od -c | grep -q '\\n' || fail "interrupted run: log cut short"
-
-# Half a measurement is none: no file, and an earlier one stays.
-echo "{}" >kept.json
-for command in "eval --scene room" "bench --frames 100000" "measure synthetic:room?frames=-1 --frames 100000"; do
-    # shellcheck disable=SC2086 # words
-    "$relief" $command --json kept.json >stdout.txt 2>stderr.txt &
-    pid=$!
-    sleep 1
-    kill -INT $pid
-    wait $pid
-    [ $? -eq 130 ] || fail "interrupted $command: status is not 130"
-    tail -n 1 stderr.txt | grep -q "nothing was written" || fail "interrupted $command: $(cat stderr.txt)"
-    [ "$(cat kept.json)" = "{}" ] && ! ls ./*.part >/dev/null 2>&1 || fail "interrupted $command: kept.json"
-done
 
 # Before the first frame there is nothing to write, and what an earlier run wrote stays.
 mkdir early && echo old >early/frames.csv

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Runs every ```sh block of README.md and docs/*.md in a scratch folder that looks like the
+# Runs every ```sh block of README.md, docs/*.md and lab/*.md in a scratch folder that looks like the
 # repository: tests/docs/commands.sh ROOT BUILD WORK. A block with <!-- not run: why --> on the line
 # above is left out, and counted.
 set -eu
@@ -20,7 +20,7 @@ for entry in "$root"/*; do
 done
 
 # Cuts the blocks out: one file each, whose name tells document and line.
-for document in "$root"/README.md "$root"/docs/*.md; do
+for document in "$root"/README.md "$root"/docs/*.md "$root"/lab/*.md; do
     awk -v folder="$work/blocks" -v name="$(basename "$document")" '
         /^```sh$/ {
             inside = 1

@@ -18,7 +18,7 @@ export RELIEF_FIGURES_ROOT="$work"
 cat >docs/figures.csv <<'END'
 # a comment, with a comma
 name,value,unit,command,from,date,commit,cpu
-a.b,2.1,cm,relief eval,,2026-01-01,abc,some
+a.b,2.1,cm,relief-lab eval,,2026-01-01,abc,some
 size,70,MB,script/bootstrap,,2026-01-01,abc,some
 END
 sample='| backs | <!--=a.b-->2.1<!--/--> cm and <!--=size-->70<!--/--> MB |'
@@ -51,7 +51,7 @@ grep -q "^size,71,MB,script/bootstrap,,$(date +%F)," docs/figures.csv || fail "-
 # Values of JSON files, where there is Python.
 if command -v python3 >/dev/null 2>&1; then
     mkdir data
-    sed -i 's/^a\.b,.*/a.b,2.1,cm,relief eval,eval:room:back:live %.1f,2026-01-01,abc,some/' docs/figures.csv
+    sed -i 's/^a\.b,.*/a.b,2.1,cm,relief-lab eval,eval:room:back:live %.1f,2026-01-01,abc,some/' docs/figures.csv
     cat >data/eval.json <<'END'
 {"machine": {"cpu": "C, 2", "date": "2026-02-03", "commit": "def"}, "seeds": [1],
  "figures": [{"scene": "room", "key": "back", "live": {"mean": 3.14159}, "thesis": null}]}

@@ -4,7 +4,7 @@
 set -eu
 
 cd "$1"
-links=$(grep -oHE '\]\([^)]+\)' README.md CHANGELOG.md docs/*.md |
+links=$(grep -oHE '\]\([^)]+\)' README.md CHANGELOG.md docs/*.md lab/*.md |
     sed -E 's/^([^:]+):\]\((.*)\)$/\1 \2/; s/#.*$//' | grep -vE ' (https?:.*)?$')
 missing=$(printf '%s\n' "$links" | while read -r document link; do
     if [ ! -e "$(dirname "$document")/$link" ]; then

@@ -38,4 +38,4 @@ for most in "5 9" "6 8"; do
 done
 cd "$root"
 exec script/sentences --most 18 45 README.md docs/guide.md docs/limits.md docs/formats.md \
-    docs/measuring.md
+    lab/measuring.md

@@ -34,7 +34,7 @@ endif()
 
 if(NOT RELIEF_SANITIZE)
   set(objects $<TARGET_OBJECTS:relief>)
-  foreach(part IN ITEMS relief_io relief_gl relief_window relief_measures relief_app)
+  foreach(part IN ITEMS relief_io relief_gl relief_window relief_command relief_app)
     if(TARGET ${part})
       list(APPEND objects $<TARGET_OBJECTS:${part}>)
     endif()

@@ -1,5 +1,5 @@
 /* The surface stage on frames that no room shows: no false word about them, no NaN, no crash. What
- * they cost is printed by bench/bench_hostile.c. */
+ * they cost is printed by lab/bench/bench_hostile.c. */
 
 #include <setjmp.h>
 #include <stdarg.h>
