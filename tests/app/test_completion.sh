@@ -57,9 +57,9 @@ offers()
 
 folder=folder
 [ "$shell" = bash ] || folder=folder/
-offers "relief " run record bench help
+offers "relief " run record fuse help
 offers "relief ru" run '!record'
-offers "relief help e" export eval '!run'
+offers "relief help e" export '!run'
 offers "relief run --pro" --profile '!--renderer'
 offers "relief run --profile " live thesis
 offers "relief run x --occlusion th" thesis '!soft'
