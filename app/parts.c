@@ -1,7 +1,7 @@
 /* What `relief --version` says of the build. */
 #include "parts.h"
 
-#include "base/part.h"
+#include "base/messages.h"
 
 #include <stdio.h>
 

@@ -2,8 +2,7 @@
  */
 #include "relief/base.h"
 
-#include "base/error_line.h"
-#include "base/line.h"
+#include "base/messages.h"
 
 #include <stdarg.h>
 #include <stdatomic.h>

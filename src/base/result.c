@@ -1,8 +1,7 @@
 /* Result names and the calling thread's error line. */
 #include "relief/base.h"
 
-#include "base/error_line.h"
-#include "base/line.h"
+#include "base/messages.h"
 
 #include <stdio.h>
 

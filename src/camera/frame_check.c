@@ -1,7 +1,7 @@
 /* What a frame must be before anyone reads its planes. */
 #include "relief/frame.h"
 
-#include "base/time_range.h"
+#include "base/checks.h"
 #include "camera/checks.h"
 
 #define STRIDE_MAX ((ptrdiff_t)1 << 30) /* bytes: no picture's, but a wrong number's */

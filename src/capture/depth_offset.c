@@ -1,5 +1,5 @@
 /* A copy of the depth plane, since that of the frame is the device's. */
-#include "capture/depth_offset.h"
+#include "capture/depth_checks.h"
 
 size_t depth_offset_size(const rlf_rig *rig)
 {

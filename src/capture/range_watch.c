@@ -1,5 +1,5 @@
 /* Depth out of the sensor's range, mostly: a wrong unit, in all likelihood. */
-#include "capture/range_watch.h"
+#include "capture/depth_checks.h"
 
 #include <stddef.h>
 #include <stdio.h>

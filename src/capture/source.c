@@ -1,8 +1,7 @@
 /* The source object: caller's methods plus what is constant about them. */
 
 #include "camera/checks.h"
-#include "capture/depth_offset.h"
-#include "capture/range_watch.h"
+#include "capture/depth_checks.h"
 
 struct rlf_source {
     rlf_source_methods methods;

@@ -15,6 +15,7 @@
 #define RLF_ENVIRONMENT_BACKGROUND_COLOR_H
 
 #include "camera/register.h"
+#include "relief/camera.h"
 #include "relief/surface.h"
 
 typedef struct background_color {
@@ -62,5 +63,20 @@ typedef struct background_color_sight {
  * 1 = the thing, -1 = the background, 0 = nothing. */
 int background_color_tells(const background_color *background, const background_color_sight *sight,
                            int32_t i, int32_t near, float near_z);
+
+/* ---- sight_change.c: whether the camera has moved so far that what is remembered pixel by
+ * pixel is no longer there. */
+
+/* A zeroed one remembers nothing. */
+typedef struct sight_change {
+    rlf_pose T_world_camera; /* where the memory began */
+    bool has_pose;
+} sight_change;
+
+/* True when something between `nearest_m` and far away is now a pixel of `camera`, or more, from
+ * where it was when the memory began; it then begins anew here. The first pose is no change, and a
+ * standing camera's never is. */
+bool sight_change_update(sight_change *c, const rlf_pose *T_world_camera, const rlf_camera *camera,
+                         double nearest_m);
 
 #endif

@@ -1,5 +1,5 @@
 /* Which pixels may hide a body: rows and columns through the tiles with edges. */
-#include "environment/edge_matte_pass.h"
+#include "environment/edge_matte.h"
 
 #include "environment/depth_edge.h"
 #include "kernel/kernel.h"

@@ -2,7 +2,6 @@
 #include "environment/edge_matte.h"
 
 #include "environment/depth_edge.h"
-#include "environment/edge_matte_mixture.h"
 
 enum {
     CLUSTER = 2,    /* pixels: steps this close are one edge, with mixed pixels between */

@@ -1,5 +1,5 @@
 /* Cover without lines gone astray; what pixels show is steady over time. */
-#include "environment/edge_matte_pass.h"
+#include "environment/edge_matte.h"
 
 #include "environment/depth_edge.h"
 #include "kernel/kernel.h"

@@ -1,5 +1,5 @@
 /* Tiles of the picture: which have bodies, and which have edges that matter to those. */
-#include "environment/edge_matte_pass.h"
+#include "environment/edge_matte.h"
 
 #include "camera/pixel_rect.h"
 #include "environment/depth_edge.h"

@@ -7,8 +7,8 @@
  * bend. Shadows, and neighbours that are alike by chance, are outliers: weights fall with the
  * residual (Cauchy). A light's direction is known only when the pairs tell something about every
  * axis; what was given counts as a few of them. */
-#include "environment/light_direction.h"
-#include "environment/srgb.h"
+#include "environment/light.h"
+#include "environment/depth_edge.h"
 
 #define STEP 4            /* pixels between points, both ways */
 #define SPANS 3           /* pairs are so many times STEP 1, 2, 4, .. apart */

@@ -1,5 +1,5 @@
 /* One ray to the light through the depth image. */
-#include "environment/light_path.h"
+#include "environment/light.h"
 
 #include "kernel/kernel.h"
 

@@ -1,6 +1,6 @@
 /* All rays from a body to the light at once: a ball that is moved to the light. Where all that is
  * seen around its way is behind it no ray loses light, and none need be followed. */
-#include "environment/light_path.h"
+#include "environment/light.h"
 
 #define ENDLESS 1e9f   /* no bounds yet */
 #define MARGIN 1.0001f /* of depth: rounding along a ray */

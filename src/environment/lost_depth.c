@@ -1,5 +1,5 @@
 /* Which surface a pixel without depth belongs to. */
-#include "environment/lost_depth.h"
+#include "environment/real_depth.h"
 
 #include "environment/depth_edge.h"
 

@@ -1,5 +1,5 @@
 /* How far the next seen pixel is from each lost one, in eight directions. */
-#include "environment/lost_depth.h"
+#include "environment/real_depth.h"
 
 #include "kernel/kernel.h"
 

@@ -1,5 +1,5 @@
 /* Windows that grow together. */
-#include "environment/real_windows.h"
+#include "environment/real_depth.h"
 
 static bool meet(const pixel_rect *a, const pixel_rect *b)
 {

@@ -1,6 +1,6 @@
 /* The camera's exposure and the lamps' colour from the picture's mean: on the whole a room is grey
  * (Buchsbaum 1980), and a body is lit by the same lamps and seen by the same camera. */
-#include "environment/room_light.h"
+#include "environment/light.h"
 
 #define GREY 118.0f        /* sRGB of 18 % reflectance */
 #define DARKEST 0.25f      /* of a body's colour */

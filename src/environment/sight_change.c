@@ -1,5 +1,5 @@
 /* How far a camera's motion shifts its picture. */
-#include "environment/sight_change.h"
+#include "environment/background_color.h"
 
 #define MOST_PX 1.0
 

@@ -1,5 +1,5 @@
 /* The stage: from a surface to its hands. */
-#include "base/cookie.h"
+#include "base/checks.h"
 #include "hands/follow.h"
 #include "hands/foot.h"
 #include "hands/side.h"

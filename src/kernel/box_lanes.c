@@ -1,5 +1,5 @@
 /* Boxes against a box, sixteen at a time. */
-#include "kernel/box_lanes.h"
+#include "kernel/lanes.h"
 #include "kernel/kernel.h"
 
 RLF_KERNEL int32_t rlf_kernel_boxes_meet(const float *restrict ends, int32_t stride, int32_t begin,

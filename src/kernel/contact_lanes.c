@@ -1,5 +1,5 @@
 /* Sequential impulses in eight lanes. */
-#include "kernel/contact_lanes.h"
+#include "kernel/lanes.h"
 #include "kernel/kernel.h"
 
 #include <math.h>

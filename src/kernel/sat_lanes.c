@@ -1,5 +1,5 @@
 /* Separating axes in lanes. */
-#include "kernel/sat_lanes.h"
+#include "kernel/lanes.h"
 #include "kernel/kernel.h"
 
 #include <stdbool.h>

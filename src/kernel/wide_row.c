@@ -1,6 +1,6 @@
 /* Two rows of pixels as one of half the resolution, and what planes found there say to the whole
  * one: see surface/normals/wide.c. */
-#include "kernel/wide.h"
+#include "kernel/plane_window.h"
 
 #include <math.h>
 

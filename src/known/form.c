@@ -1,5 +1,5 @@
 /* What rays meet of a model. */
-#include "known/form.h"
+#include "known/mesh.h"
 
 #include "relief/model.h"
 

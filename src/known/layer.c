@@ -1,8 +1,6 @@
 /* Which pixels a model covers, and what they are worth. */
 #include "known/layer.h"
 
-#include "known/silhouette.h"
-
 #include <string.h>
 
 /* What is sensed within this of a model, and three standard deviations of the sensor, is the model:

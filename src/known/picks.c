@@ -1,5 +1,5 @@
 /* Depth and ray of a picked pixel. */
-#include "known/picks.h"
+#include "known/align.h"
 
 #define WINDOW_PX 3.0 /* of the depth camera's pixels, to each side */
 #define SAMPLES_MAX 1024

@@ -1,5 +1,5 @@
 /* What is beside a model's silhouette, and how much of a pixel it covers. */
-#include "known/silhouette.h"
+#include "known/layer.h"
 
 #include <string.h>
 

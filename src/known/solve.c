@@ -1,8 +1,7 @@
 /* A model's pose from picks: closed form, then each pick by what is known of it. */
 #include "known/align.h"
-#include "known/picks.h"
 
-#include "base/cookie.h"
+#include "base/checks.h"
 
 #define ROUNDS 20
 #define PICK_SIGMA_PX 1.5   /* of a hand that picks */

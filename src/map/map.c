@@ -1,7 +1,7 @@
 /* Settings, life and state of a map. */
 #include "map/volume.h"
 
-#include "base/cookie.h"
+#include "base/checks.h"
 #include "camera/checks.h"
 #include "camera/pixels.h"
 

@@ -1,7 +1,7 @@
 /* Bodies: made from their defs, found, woken, released from being held. */
 #include "physics/world_state.h"
 
-#include "base/cookie.h"
+#include "base/checks.h"
 
 #include <stdio.h>
 #include <string.h>

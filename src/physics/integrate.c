@@ -3,7 +3,7 @@
  * The rotation is the commutator-free Lie group method of order 4 (Celledoni, Marthinsen and Owren
  * 2003, "CF4") for q' = 1/2 w(q) q with w(q) = R I^-1 R^T L and the angular momentum L constant:
  * a quaternion stays a rotation by construction, and L is conserved exactly. */
-#include "physics/integrate.h"
+#include "physics/solver.h"
 
 static rlf_vec3 omega_of(const phys_body *body, rlf_quat q, rlf_vec3 L)
 {

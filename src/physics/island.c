@@ -3,7 +3,6 @@
 #include "physics/fetch.h"
 #include "physics/grab/grab.h"
 #include "physics/grid/contact/contact.h"
-#include "physics/integrate.h"
 #include "physics/solver.h"
 
 #define SOLVE_PASSES 6

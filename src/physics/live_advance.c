@@ -3,10 +3,8 @@
 #include "physics/fetch.h"
 #include "physics/grab/grab.h"
 #include "physics/grid/contact/contact.h"
-#include "physics/integrate.h"
-#include "physics/pair/search.h"
-#include "physics/sleep.h"
 #include "physics/solver.h"
+#include "physics/pair/collide.h"
 
 #include <string.h>
 

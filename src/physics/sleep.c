@@ -1,7 +1,7 @@
 /* Sleep: a body that is still, and whose neighbours are, is left alone until something happens to
  * it. */
 #include "physics/grid/mapped/mapped.h"
-#include "physics/sleep.h"
+#include "physics/solver.h"
 
 /* A body is still while its place, averaged over blocks of time, does not drift: the noise of a
  * depth camera shakes what rests on it (some tenths of a mm at 2 m), but a slope 0.05 degrees too

@@ -2,6 +2,8 @@
 #ifndef RLF_PHYSICS_SOLVER_H
 #define RLF_PHYSICS_SOLVER_H
 
+#include "physics/body.h"
+#include "physics/grid/contact/contact.h"
 #include "physics/world_state.h"
 
 /* Lists those contacts that may touch in a substep of h seconds, and sets the gaps of all.
@@ -48,5 +50,29 @@ void phys_island_substep(rlf_world *world, const phys_island *island,
 
 /* Sorts the awake bodies and their pairs into world->islands. */
 void phys_find_islands(rlf_world *world);
+
+/* ---- integrate.c: motion of one body over one substep: exact free fall and a geometric
+ * rotation. */
+
+/* Turns the body by its angular velocity over h seconds; without a torque the angular momentum in
+ * the world is conserved and the energy to fourth order. */
+void phys_integrate_rotation(phys_body *body, double h);
+
+/* Moves the centre and turns the body over h seconds. The velocity already holds a h. A free body
+ * moves by v h + a h^2 / 2 with its old v, exact under constant acceleration; one that a contact
+ * held moves with its new velocity, which the solver made fit the contact. */
+void phys_integrate_position(phys_body *body, double h);
+
+/* ---- sleep.c: rest: bodies that hardly move stop being simulated until something touches them. */
+
+/* Ends the sleep of bodies whose surface moved, came closer or went away, or
+ * will come to them within `horizon` seconds. */
+void phys_wake_by_surface(rlf_world *world, const grid_query *query, double horizon);
+
+/* Ends the sleep of bodies that a moving one touches, or will within `horizon` seconds. */
+void phys_wake_by_touch(rlf_world *world, double horizon);
+
+/* Puts bodies to sleep that have been still for half a second and touch nothing restless. */
+void phys_fall_asleep(rlf_world *world, double h);
 
 #endif

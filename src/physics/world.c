@@ -1,10 +1,10 @@
 /* The world's life: making it, adding, finding and changing bodies. */
 #include "physics/grab/grab.h"
 #include "physics/grid/field.h"
-#include "physics/pair/search.h"
+#include "physics/pair/collide.h"
 #include "physics/world_state.h"
 
-#include "base/cookie.h"
+#include "base/checks.h"
 
 #include <string.h>
 

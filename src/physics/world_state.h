@@ -2,8 +2,7 @@
 #ifndef RLF_PHYSICS_WORLD_STATE_H
 #define RLF_PHYSICS_WORLD_STATE_H
 
-#include "kernel/box_lanes.h"
-#include "kernel/contact_lanes.h"
+#include "kernel/lanes.h"
 #include "physics/body.h"
 #include "physics/grid/unseen/room_planes.h"
 #include "physics/grid/tiles.h"

@@ -1,5 +1,5 @@
 /* A pipeline is made, with all of its stages and the scene, and goes. */
-#include "base/cookie.h"
+#include "base/checks.h"
 #include "camera/checks.h"
 #include "pipeline/state.h"
 

@@ -1,5 +1,5 @@
 /* The frame loop: capture, surface, physics, render, in this order, one frame at a time. */
-#include "base/cookie.h"
+#include "base/checks.h"
 #include "pipeline/state.h"
 
 #include <string.h>

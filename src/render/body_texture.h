@@ -8,6 +8,7 @@
 
 #include "base/inside.h"
 #include "relief/image.h"
+#include "relief/model.h"
 #include "relief/snapshot.h"
 
 enum {
@@ -43,5 +44,33 @@ size_t body_texture_level_offset(int32_t level) RLF_INSIDE(body_texture_level_of
  * picture's camera, focal its focal length in pixels. */
 int32_t body_texture_level_of(const rlf_shape *shape, double z, double focal)
     RLF_INSIDE(body_texture_level_of);
+
+/* ---- model_texture.c: textures of models: pictures brought to powers of two, with all smaller
+ * levels. */
+
+/* Size and levels of the texture that a picture becomes; no texels yet. */
+rlf_model_texture model_texture_fit(const rlf_image_rgba8 *image);
+/* Of all levels. */
+size_t model_texture_bytes(const rlf_model_texture *texture);
+/* Writes all levels. Integer arithmetic: the same bytes everywhere. */
+void model_texture_fill(const rlf_image_rgba8 *image, const rlf_model_texture *texture,
+                        uint8_t *texels);
+
+/* ---- Where a body is that is drawn as a model, for both renderers. */
+
+/* Body frame, metres. */
+static inline rlf_vec3 body_look_point(const rlf_look *look, const rlf_model_vertex *v)
+{
+    rlf_vec3 p = {(double)v->position[0], (double)v->position[1], (double)v->position[2]};
+    return rlf_mad(look->offset, p, look->scale);
+}
+
+/* Largest distance from the body's origin to what is drawn of it. */
+static inline double body_look_radius(const rlf_body_state *body)
+{
+    const rlf_look *look = &body->look;
+    return look->model != NULL ? look->scale * look->model->radius + rlf_length(look->offset)
+                               : rlf_shape_radius(&body->shape);
+}
 
 #endif

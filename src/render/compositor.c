@@ -1,7 +1,7 @@
 /* The compositor object: whatever renderer stands behind it, and the names of the views. */
 #include "relief/compositor.h"
 
-#include "base/cookie.h"
+#include "base/checks.h"
 #include "camera/checks.h"
 
 #include <string.h>

@@ -2,8 +2,6 @@
 #include "relief/compositor.h"
 
 #include "render/soft/draw.h"
-#include "render/soft/palette.h"
-#include "render/soft/text.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* Models: checks, normals, and everything in one block of memory. */
-#include "render/model_texture.h"
+#include "render/body_texture.h"
 
-#include "base/cookie.h"
+#include "base/checks.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* A texture's levels: means over areas, in integers. */
-#include "render/model_texture.h"
+#include "render/body_texture.h"
 
 /* The power of two nearest to a size, by ratio. */
 static int32_t nearest_power(int32_t size)

@@ -1,5 +1,5 @@
 /* Light around that planes keep from points: see obscurance.h. */
-#include "render/obscurance.h"
+#include "render/real_shade.h"
 
 static float dot3(const float a[3], const float b[3])
 {

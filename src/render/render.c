@@ -1,7 +1,7 @@
 /* The compositor's values as the environment takes them, and where its views are seen from. */
 #include "render/render.h"
 
-#include "render/body_look.h"
+#include "render/body_texture.h"
 
 #include <string.h>
 

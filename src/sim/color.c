@@ -1,7 +1,7 @@
 /* One frame of the colour camera: restore what was covered, darken the floor, paint the movers with
  * soft outlines. */
 #include "sim/color.h"
-#include "sim/light.h"
+#include "sim/material.h"
 
 #include <string.h>
 

@@ -4,7 +4,6 @@
 
 #include "sim/cast.h"
 #include "sim/material.h"
-#include "sim/shadow.h"
 #include "sim/stamp.h"
 
 /* One state of the room. */

@@ -1,6 +1,6 @@
 /* The colour camera's picture of the static room: four rays per pixel, lit once. */
 #include "sim/color.h"
-#include "sim/light.h"
+#include "sim/material.h"
 
 #include <string.h>
 

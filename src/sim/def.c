@@ -1,7 +1,7 @@
 /* Settings of the synthetic source. */
 #include "sim/sensor.h"
 
-#include "base/cookie.h"
+#include "base/checks.h"
 
 #define COLOR_SIZE_MAX 4096
 #define FPS_MAX 1000.0

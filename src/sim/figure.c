@@ -6,8 +6,8 @@
  * correlate by 0.5 to 0.85): one build for the whole body, and a part of its own. Walking speeds
  * are spread as in Bohannon 1997 (Age and Ageing 26), 10 to 15 % at any age. */
 #include "sim/figure.h"
-
 #include "sim/bones.h"
+
 #include "sim/hash.h"
 
 #define STANDARD_STATURE 1.75

@@ -1,6 +1,6 @@
 /* Direct light with a soft shadow from rays to an area lamp; ambient light dimmed by nearby
  * surfaces. */
-#include "sim/light.h"
+#include "sim/material.h"
 
 #define LAMP_HALF 0.16 /* metres */
 

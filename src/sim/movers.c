@@ -1,7 +1,7 @@
 /* Who moves in which scene. */
 #include "sim/bones.h"
 #include "sim/hands/hands.h"
-#include "sim/random/random.h"
+#include "sim/random/plan.h"
 
 typedef void (*bones_fn)(const synth_scene *, double, rlf_pose[SYNTH_BONE_COUNT]);
 

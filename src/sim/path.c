@@ -2,7 +2,7 @@
  * for every seed. */
 #include "sim/path.h"
 
-#include "sim/random/random.h"
+#include "sim/random/plan.h"
 
 #define CLEARANCE 0.3  /* metres that the camera keeps from what stands */
 #define LOOKED_AT 20.0 /* seconds of the path whose clearance is looked at */

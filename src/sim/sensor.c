@@ -1,6 +1,6 @@
 /* rlf_synthetic_create: the sensor's cameras, its frames and its truth. */
 #include "sim/sensor.h"
-#include "base/cookie.h"
+#include "base/checks.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -6,7 +6,7 @@
 #include "sim/depth.h"
 #include "sim/path.h"
 #include "sim/hands/hands.h"
-#include "sim/random/random.h"
+#include "sim/random/plan.h"
 
 typedef struct synth_sensor {
     rlf_synthetic_def def;

@@ -1,7 +1,7 @@
 /* Blob shadows. The floor is level and so is the camera: a picture row is a line of constant z on
  * the floor, so the ellipses are drawn row by row. */
-#include "sim/shadow.h"
-#include "sim/light.h"
+#include "sim/stamp.h"
+#include "sim/material.h"
 #include "kernel/kernel.h"
 
 #define ROW_MAX 4096

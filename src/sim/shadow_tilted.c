@@ -1,5 +1,5 @@
 /* Blob shadows as a tilted camera sees them: each pixel finds its own place on the floor. */
-#include "sim/shadow.h"
+#include "sim/stamp.h"
 #include "kernel/kernel.h"
 
 #define NEAREST 0.1     /* metres before the camera */

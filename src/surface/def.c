@@ -1,7 +1,7 @@
 /* Settings of the surface stage: the two profiles and the check of a caller's def. */
 #include "surface/stage.h"
 
-#include "base/cookie.h"
+#include "base/checks.h"
 #include "camera/checks.h"
 
 #define LENGTH_MAX 1000.0 /* metres, of any setting */

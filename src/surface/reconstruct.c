@@ -4,7 +4,7 @@
 #include "surface/steps.h"
 #include "surface/thickness/thickness.h"
 
-#include "base/cookie.h"
+#include "base/checks.h"
 #include "camera/checks.h"
 
 #include <string.h>

@@ -1,8 +1,7 @@
 /* A tracker's life, and its guess of the next pose. */
 #include "track/tracker.h"
 
-#include "base/cookie.h"
-#include "base/time_range.h"
+#include "base/checks.h"
 #include "camera/checks.h"
 #include "camera/pixels.h"
 #include "math/rigid.h"

@@ -1,5 +1,5 @@
 /* A body held by the mouse. */
-#include "viewer/grab.h"
+#include "viewer/mouse.h"
 
 #define RATE 18.0        /* 1/s: the spring comes to rest in about two of these */
 #define ACCELERATION 200 /* m/s^2 at most */

@@ -1,6 +1,6 @@
 /* The lines of text over the picture. Those that come and go are below those that stay. */
 #include "viewer/state.h"
-#include "viewer/throw.h"
+#include "viewer/mouse.h"
 
 #include <stdio.h>
 #include <string.h>

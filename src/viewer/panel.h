@@ -2,7 +2,7 @@
 #ifndef RLF_VIEWER_PANEL_H
 #define RLF_VIEWER_PANEL_H
 
-#include "base/part.h"
+#include "base/messages.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,5 +1,5 @@
 /* The order of points, and what picks and keys do with them. */
-#include "viewer/place.h"
+#include "viewer/mouse.h"
 
 #include <stdio.h>
 #include <string.h>

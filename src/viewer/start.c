@@ -4,7 +4,7 @@
 #include "relief/gl.h"
 #include "relief/pipeline.h"
 #include "relief/synthetic.h"
-#include "viewer/throw.h"
+#include "viewer/mouse.h"
 #include "viewer/window.h"
 
 #include <stdio.h>

@@ -2,9 +2,8 @@
 #ifndef RLF_VIEWER_STATE_H
 #define RLF_VIEWER_STATE_H
 
-#include "viewer/grab.h"
+#include "viewer/mouse.h"
 #include "viewer/panel.h"
-#include "viewer/place.h"
 #include "relief/window.h"
 #include "viewer/window.h"
 

@@ -1,5 +1,5 @@
 /* Mouse positions, rays and thrown bodies. */
-#include "viewer/throw.h"
+#include "viewer/mouse.h"
 
 #define START_M 0.29 /* ahead of the camera, so that the body does not fill the picture */
 

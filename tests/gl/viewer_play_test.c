@@ -8,7 +8,7 @@
 
 #include "relief/playback.h"
 #include "relief/synthetic.h"
-#include "viewer/grab.h"
+#include "viewer/mouse.h"
 #include "relief/window.h"
 
 #include "viewer_drive.h"

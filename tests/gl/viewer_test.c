@@ -9,8 +9,7 @@
 #include "relief/gl.h"
 #include "relief/synthetic.h"
 #include "relief/window.h"
-#include "viewer/place.h"
-#include "viewer/throw.h"
+#include "viewer/mouse.h"
 
 #include "count_assert.h"
 #include "viewer_drive.h"

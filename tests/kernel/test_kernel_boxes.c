@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "analytic.h"
-#include "kernel/box_lanes.h"
+#include "kernel/lanes.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "analytic.h"
-#include "kernel/contact_lanes.h"
+#include "kernel/lanes.h"
 #include "relief/math.h"
 
 #include <math.h>

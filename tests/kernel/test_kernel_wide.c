@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "analytic.h"
-#include "kernel/wide.h"
+#include "kernel/plane_window.h"
 
 #include <math.h>
 

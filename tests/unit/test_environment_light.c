@@ -6,8 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "environment/light_direction.h"
-#include "environment/room_light.h"
+#include "environment/light.h"
 
 #include <math.h>
 

@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "environment/lost_depth.h"
+#include "environment/real_depth.h"
 
 #include <string.h>
 

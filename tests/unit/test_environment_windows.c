@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "environment/real_windows.h"
+#include "environment/real_depth.h"
 #include "render_scene.h"
 
 #define NEAREST_M 2.0

@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "physics/grid/contour.h"
+#include "physics/grid/field.h"
 
 #include <math.h>
 

@@ -6,7 +6,7 @@
 #include <cmocka.h>
 
 #include "analytic.h"
-#include "physics/pair/broad_phase.h"
+#include "physics/pair/collide.h"
 #include "relief/world.h"
 
 #include <math.h>

@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "render/obscurance.h"
+#include "render/real_shade.h"
 
 #include <math.h>
 

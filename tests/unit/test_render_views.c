@@ -11,9 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "render/soft/font.h"
-#include "render/soft/palette.h"
-#include "render/soft/text.h"
+#include "render/soft/draw.h"
 #include "render_scene.h"
 
 static rlf_compositor *create(const rlf_compositor_def *def)

@@ -2,7 +2,7 @@
  * path in $RELIEF_OPENCV_LIBRARY. */
 #include "calibrate/opencv/opencv.h"
 
-#include "base/part.h"
+#include "base/messages.h"
 #include "relief/base.h"
 
 #include <dlfcn.h>

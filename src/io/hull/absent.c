@@ -1,7 +1,7 @@
 /* Stands in for qhull.c where it is not built. */
 #include "io/hull/hull.h"
 
-#include "base/part.h"
+#include "base/messages.h"
 
 rlf_result io_hull_wrap(const char *name, const rlf_vec3 *points, int32_t count, io_mesh *out)
 {

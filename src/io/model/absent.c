@@ -1,7 +1,7 @@
 /* Stands in for import.c where it is not built. */
 #include "io/model/model.h"
 
-#include "base/part.h"
+#include "base/messages.h"
 
 rlf_result io_model_import(const io_bytes *file, io_model_format format, bool is_alone,
                            rlf_model **out)

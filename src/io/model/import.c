@@ -1,6 +1,6 @@
 /* glTF 2.0 and OBJ by assimp. */
 #include "io/model/import.h"
-#include "base/cookie.h"
+#include "base/checks.h"
 #include "io/model/files.h"
 
 #include <assimp/cimport.h>

@@ -1,7 +1,7 @@
 /* MCAP files in a build without zstd and lz4. */
 #include "io/recording/sink.h"
 
-#include "base/part.h"
+#include "base/messages.h"
 
 rlf_result io_mcap_sink_open(const char *path, const rlf_source_info *info,
                              const rlf_recording_def *def, io_sink *out)

@@ -1,7 +1,7 @@
 /* Chunks of a bag, unpacked. */
 #include "io/rosbag/bag_parts.h"
 
-#include "base/part.h"
+#include "base/messages.h"
 
 #ifdef RLF_HAVE_LZ4
 #include <lz4frame.h>

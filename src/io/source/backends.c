@@ -1,7 +1,7 @@
 /* The back ends of this build. */
 #include "io/source/backends.h"
 
-#include "base/part.h"
+#include "base/messages.h"
 #include "io/source/absent.h"
 
 /* In the order in which they are asked for a file: a folder is asked last, as it takes any. */

@@ -1,7 +1,7 @@
 /* MP4 in a build without libav. */
 #include "io/video/video.h"
 
-#include "base/part.h"
+#include "base/messages.h"
 
 rlf_result io_mp4_open(const char *path, const io_video_format *format, io_video_sink *out)
 {

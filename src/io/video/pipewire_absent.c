@@ -1,7 +1,7 @@
 /* The desktop's video sources in a build without PipeWire. */
 #include "io/video/video.h"
 
-#include "base/part.h"
+#include "base/messages.h"
 
 rlf_result io_pipewire_open(const char *name, const io_video_format *format, io_video_sink *out)
 {

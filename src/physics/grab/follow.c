@@ -3,7 +3,7 @@
  * told from how the hand looked when it grabbed, so that no error adds up; the flow of the surface
  * decides only what neither shows. */
 #include "math/rigid.h"
-#include "physics/grab/hand.h"
+#include "physics/grab/grab.h"
 
 #define PASSES 4
 /* Residuals count in full up to here and hardly beyond: noise, metres. The first pass is as many

@@ -1,5 +1,5 @@
 /* The life of a grab: begun by a grip, carried by the hand's motion, ended by open fingers. */
-#include "physics/grab/hand.h"
+#include "physics/grab/grab.h"
 
 /* Frames in a row in which the sides grip before the body is held: one may be noise. */
 #define GRIP_FRAMES 2

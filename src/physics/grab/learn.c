@@ -1,5 +1,5 @@
 /* Remembers how a hand looks when it grabs: points of its surface and of its outline. */
-#include "physics/grab/hand.h"
+#include "physics/grab/grab.h"
 
 #define SAMPLES_PER_SIDE 28
 /* What is this near a grabbed body is the hand that holds it: fingers and palm, metres. */

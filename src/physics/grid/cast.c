@@ -1,6 +1,6 @@
 /* The way of a point into the solid, and out of it: through the front, the back or a side. */
 #include "physics/grid/cast.h"
-#include "physics/grid/contour.h"
+#include "physics/grid/field.h"
 
 #define NO_HEIGHT 1e9
 

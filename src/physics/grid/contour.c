@@ -1,5 +1,5 @@
 /* Outlines: steps in depth and rims of the mask. */
-#include "physics/grid/contour.h"
+#include "physics/grid/field.h"
 
 #define WINDOW_PX 3
 

@@ -1,6 +1,5 @@
 /* Reading one sheet of the grid: where a point stands to the solid. */
 #include "physics/grid/field.h"
-#include "physics/grid/contour.h"
 
 /* What is not below these is no measurement, m and m/s. */
 #define FARTHEST 1e6

@@ -7,8 +7,34 @@
 #ifndef RLF_PHYSICS_GRID_FIELD_H
 #define RLF_PHYSICS_GRID_FIELD_H
 
-#include "physics/grid/tolerance.h"
 #include "relief/world.h"
+
+/* ---- The tolerances that this folder shares. Lengths are multiples of these, angles are
+ * cosines. */
+
+/* Distance kept ready for contacts that are not there yet, metres. */
+#define GRID_MARGIN 0.004
+
+/* What differs from a face by no more than this is noise, metres. */
+#define GRID_NOISE_M 0.01
+
+/* How far a body or a surface goes at 10 m/s between two searches, and some, metres. What is
+ * thinner is thin. */
+#define GRID_THIN_M 0.05
+
+/* Cosines between normals: */
+#define ONE_PLANE_COS 0.97 /* of one plane */
+#define ONE_FACE_COS 0.95  /* side by side on a face that may be curved */
+#define SAME_FACE_COS 0.9  /* of one face, with noise; of one direction of contact */
+#define NOISY_FACE_COS 0.8 /* the same beside an edge */
+#define APART_COS 0.7      /* what bends less may be one round face */
+#define ASIDE_COS 0.3      /* square to each other, up to noise */
+
+/* Cosine between a face's normal and the view ray: a face that is seen at a lower angle has no
+ * plane that the ray meets. */
+#define GRAZING_COS 0.02
+
+/* ---- The field. */
 
 /* Thickness of a solid that never ends, metres. */
 #define FIELD_ENDLESS 1e9
@@ -94,5 +120,37 @@ rlf_vec3 grid_back_point(const field_cell *cell);
 /* Central differences of the back surface, turned away from the camera. */
 rlf_vec3 grid_back_normal(const rlf_grid *grid, const rlf_grid_sheet *sheet,
                           const field_cell *cell);
+
+/* ---- contour.c: the outline of a sheet's solid in the image: where it ends, which way it
+ * faces, how wide it is. */
+
+/* Two pixels side by side differ by more than this only across an outline, metres. */
+double grid_depth_step(double z);
+
+/* z at which the side wall between `cell` and the pixel at (x, y) ends: that pixel is off the sheet
+ * or farther than the cell's own plane explains. 0 when there is no wall. */
+double grid_contour_end(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
+                        int32_t x, int32_t y);
+
+/* Which way the outline near `cell` faces: the mean direction to the free pixels of a window around
+ * it, square to the view ray, unit, out of the solid. False where no outline is near. */
+bool grid_contour_normal(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
+                         rlf_vec3 *out);
+
+/* How deep a guessed solid is at the cell, up to `limit` metres: no more than it is wide, by the
+ * shorter of its row's and its column's run between steps in depth, and no more than is hidden at
+ * the ends of these, as far as the camera looks past them. Not counted is a flat side that
+ * is seen beside its front, all of whose pixels face one way: missing ones, and most of those of
+ * what is round, do count. */
+double grid_guess_depth(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
+                        double limit);
+
+/* The direction of a side wall's outline, unit, square to its face and to where it goes inward. */
+rlf_vec3 grid_wall_along(rlf_vec3 inward, rlf_vec3 side);
+
+/* A side wall's direction at an outline's pixel: its face, which is `side` turned so that the wall
+ * goes `inward`, and at its front (edge < 0) and back edge (> 0) all between that face and inward.
+ * `normal` brought into them. */
+rlf_vec3 grid_wall_normal(rlf_vec3 inward, rlf_vec3 side, rlf_vec3 normal, int32_t edge);
 
 #endif

@@ -4,7 +4,6 @@
 
 #include "physics/grid/cast.h"
 #include "physics/grid/contact/contact.h"
-#include "physics/grid/tolerance.h"
 
 #define GRID_HITS_MAX 128
 #define GRID_NORMALS_MAX 4

@@ -1,7 +1,6 @@
 /* Making tiles. */
 #include "physics/grid/tiles.h"
 #include "kernel/kernel.h"
-#include "physics/grid/contour.h"
 #include "physics/grid/field.h"
 
 #define SIZE_MIN 16

@@ -1,6 +1,5 @@
 /* Box against box: separating axes, then the incident face clipped to the reference face
  * (Gottschalk, Lin and Manocha 1996; Ericson 2005, 5.5). */
-#include "physics/pair/clip.h"
 #include "physics/pair/collide.h"
 
 typedef struct box {

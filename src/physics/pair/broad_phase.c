@@ -1,9 +1,8 @@
 /* Broad phase: sweep and prune (Ericson 2005, 7.5). Bodies are sorted by where their boxes begin
  * along one axis, and each that moves is held against those that may reach into its box, in lanes.
  */
-#include "physics/pair/broad_phase.h"
-#include "kernel/box_lanes.h"
-#include "physics/pair/search.h"
+#include "physics/pair/collide.h"
+#include "kernel/lanes.h"
 
 /* Far more than a float of some metres is rounded by: metres, and a share. */
 #define ROUNDING 1e-6

@@ -1,8 +1,6 @@
 /* Any convex shape against any other: the direction in which they are nearest, or least deep, then
  * all points in which their faces touch along it. */
-#include "physics/pair/clip.h"
 #include "physics/pair/collide.h"
-#include "physics/pair/face.h"
 #include "physics/shape/convex.h"
 
 /* Cosines: a face that looks more aside than this touches with an edge or a corner alone; two edges

@@ -1,4 +1,4 @@
-#include "physics/pair/face.h"
+#include "physics/pair/collide.h"
 
 /* A cylinder touches with its cap, an edge of its side, or, about level, with the axis that lies
  * beneath it: cosines to its axis. */

@@ -1,8 +1,6 @@
 /* Keeping pairs from one broad phase to the next, and searching their contacts when they moved. */
-#include "physics/pair/search.h"
-#include "physics/fetch.h"
-#include "physics/pair/broad_phase.h"
 #include "physics/pair/collide.h"
+#include "physics/fetch.h"
 
 /* Bodies that moved less than this share of their radius past each other keep their contacts: their
  * points move with the bodies, and a normal with the side of a box. */

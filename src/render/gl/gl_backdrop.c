@@ -1,7 +1,7 @@
 /* Colour or grey depth, and shadows on it. */
 #include "render/gl/gl_backdrop.h"
 
-#include "render/gl/gl_program.h"
+#include "render/gl/gl_context.h"
 
 enum { UNIT_COLOR = 0, UNIT_REAL_DEPTH = 0 };
 

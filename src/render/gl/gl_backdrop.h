@@ -3,8 +3,8 @@
 #ifndef RLF_RENDER_GL_BACKDROP_H
 #define RLF_RENDER_GL_BACKDROP_H
 
-#include "render/gl/gl_caster.h"
-#include "render/gl/gl_texture.h"
+#include "render/gl/gl_light.h"
+#include "render/gl/gl_context.h"
 #include "render/gl/gl_view.h"
 
 typedef struct gl_backdrop {

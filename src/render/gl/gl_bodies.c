@@ -1,8 +1,8 @@
 /* Bodies as meshes with a model matrix T R S each (A.3 as corrected), placed by A.5. */
 #include "render/gl/gl_bodies.h"
 
-#include "render/gl/gl_occlusion.h"
-#include "render/gl/gl_program.h"
+#include "render/gl/gl_light.h"
+#include "render/gl/gl_context.h"
 
 #include "render/body_texture.h"
 

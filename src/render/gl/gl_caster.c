@@ -1,5 +1,5 @@
 /* Light that bodies take, in GLSL. */
-#include "render/gl/gl_caster.h"
+#include "render/gl/gl_light.h"
 
 #include <stdio.h>
 

@@ -6,18 +6,16 @@
 
 #include "render/gl/gl_backdrop.h"
 #include "render/gl/gl_bodies.h"
-#include "render/gl/gl_layers.h"
-#include "render/gl/gl_target.h"
 #include "render/gl/gl_thesis.h"
+#include "render/gl/gl_context.h"
 #include "render/gl/gl_wireframe.h"
 
-#include "base/cookie.h"
-#include "environment/light_direction.h"
+#include "base/checks.h"
+#include "environment/light.h"
 #include "environment/real_depth.h"
-#include "environment/room_light.h"
 #include "environment/edge_matte.h"
 #include "render/render.h"
-#include "render/soft/overlay.h"
+#include "render/soft/draw.h"
 
 typedef struct gl_compositor {
     rlf_compositor_def def;

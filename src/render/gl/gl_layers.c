@@ -1,8 +1,8 @@
 /* Full-screen layers. */
-#include "render/gl/gl_layers.h"
+#include "render/gl/gl_thesis.h"
 
-#include "render/gl/gl_occlusion.h"
-#include "render/gl/gl_program.h"
+#include "render/gl/gl_light.h"
+#include "render/gl/gl_context.h"
 #include "render/gl/gl_view.h"
 
 enum { UNIT_BACKDROP = 0, UNIT_REAL_DEPTH = 1, UNIT_BODY_DEPTH = 2 };

@@ -1,5 +1,5 @@
 /* Uploads of models, and who stays. */
-#include "render/gl/gl_models.h"
+#include "render/gl/gl_bodies.h"
 
 #include <stddef.h>
 

@@ -1,5 +1,5 @@
 /* The planes near each body as uniforms. */
-#include "render/gl/gl_obscurance.h"
+#include "render/gl/gl_light.h"
 
 void gl_obscurance_destroy(gl_obscurance *near_by)
 {

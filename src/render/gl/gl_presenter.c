@@ -1,6 +1,5 @@
 /* Shows an image in a window: one textured rectangle with black bars, and others over it. */
-#include "render/gl/gl_program.h"
-#include "render/gl/gl_texture.h"
+#include "render/gl/gl_context.h"
 
 #include "relief/gl.h"
 

@@ -1,5 +1,5 @@
 /* Compiles and links shader programs. */
-#include "render/gl/gl_program.h"
+#include "render/gl/gl_context.h"
 
 const char gl_program_screen_vertex[] =
     "void main()\n"

@@ -1,5 +1,5 @@
 /* One row of a texture for each body that real things take light from. */
-#include "render/gl/gl_shade.h"
+#include "render/gl/gl_light.h"
 
 #include <string.h>
 

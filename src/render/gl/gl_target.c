@@ -1,5 +1,5 @@
 /* Framebuffer objects and read back. */
-#include "render/gl/gl_target.h"
+#include "render/gl/gl_context.h"
 
 static void make_buffers(gl_target *target)
 {

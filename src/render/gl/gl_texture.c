@@ -1,5 +1,5 @@
 /* Texture uploads. */
-#include "render/gl/gl_texture.h"
+#include "render/gl/gl_context.h"
 
 gl_texture gl_texture_create(GLint filter)
 {

@@ -1,9 +1,9 @@
 /* The triangle mesh as lines: points by eq. 4.1, placed by A.4. */
 #include "render/gl/gl_wireframe.h"
 
-#include "render/gl/gl_program.h"
+#include "render/gl/gl_context.h"
 
-#include "render/soft/palette.h"
+#include "render/soft/draw.h"
 
 #include <stddef.h>
 

@@ -1,5 +1,5 @@
 /* What the bodies are put into: the colour picture, resized when it has to be, or grey depth. */
-#include "render/soft/background.h"
+#include "render/soft/passes.h"
 
 #include "render/soft/draw.h"
 #include "render/soft/soft.h"

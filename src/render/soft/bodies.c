@@ -4,13 +4,8 @@
  * (4.2.2) goes body by body from the far to the near: the body is drawn alone, and where it is (the
  * stencil) the real picture is blended over it where the real depth is less than the body's z, per
  * pixel (errata 8). */
-#include "render/soft/bodies.h"
+#include "render/soft/passes.h"
 
-#include "render/soft/background.h"
-#include "render/soft/compose.h"
-#include "render/soft/raster.h"
-#include "render/soft/shade.h"
-#include "render/soft/shadow.h"
 #include "render/soft/soft.h"
 
 #include <string.h>

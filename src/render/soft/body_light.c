@@ -1,10 +1,9 @@
 /* What other bodies and real things leave of the light on a body, at nodes a few pixels apart. */
-#include "render/soft/body_light.h"
+#include "render/soft/stream.h"
 
 #include "kernel/kernel.h"
-#include "render/soft/obscure.h"
+#include "render/soft/passes.h"
 #include "render/soft/soft.h"
-#include "render/soft/stream.h"
 
 /* A ball about four corners. */
 RLF_KERNEL_PART float ball_of(const caster_points *points, const int32_t corner[4], float out[3])

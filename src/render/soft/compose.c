@@ -1,8 +1,7 @@
 /* Puts a row of bodies over the real picture. */
-#include "render/soft/compose.h"
+#include "render/soft/passes.h"
 
 #include "kernel/kernel.h"
-#include "render/soft/pixels.h"
 #include "render/soft/soft.h"
 
 RLF_KERNEL_PART float over(uint32_t real, float rest, float color)

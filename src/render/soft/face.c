@@ -1,5 +1,5 @@
 /* From camera space to screen faces: near clipping, projection, culling and plane equations. */
-#include "render/soft/face.h"
+#include "render/soft/passes.h"
 
 #include "render/soft/soft.h"
 

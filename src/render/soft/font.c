@@ -1,5 +1,5 @@
 /* Letters of 5 x 7 dots for printable ASCII, drawn for this program. */
-#include "render/soft/font.h"
+#include "render/soft/draw.h"
 
 const uint8_t soft_font[95][7] = {
     {0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00}, /*   */

@@ -1,9 +1,8 @@
 /* Lines and texts that the caller wants over the picture. */
-#include "render/soft/marks.h"
+#include "render/soft/views.h"
 
 #include "render/soft/draw.h"
 #include "render/soft/soft.h"
-#include "render/soft/text.h"
 
 #define TEXT_ASIDE_PX 4
 

@@ -1,5 +1,5 @@
 /* Which part of the registered depth a picture needs. */
-#include "render/soft/needed.h"
+#include "render/soft/passes.h"
 
 #include "render/soft/soft.h"
 

@@ -1,6 +1,6 @@
 /* Real surfaces near a body keep light around from it: where the bodies are, and at nodes of their
  * faces. */
-#include "render/soft/obscure.h"
+#include "render/soft/passes.h"
 
 #include "kernel/kernel.h"
 #include "render/soft/soft.h"

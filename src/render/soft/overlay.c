@@ -1,8 +1,5 @@
 /* What is written over the picture: lines of text, and a small plot of stacked bars. */
-#include "render/soft/overlay.h"
-
 #include "render/soft/draw.h"
-#include "render/soft/text.h"
 
 #define BAR 2     /* pixels of a frame, times the text's scale over two */
 #define HEIGHT 40 /* of the plot, times the text's scale */

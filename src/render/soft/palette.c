@@ -1,6 +1,4 @@
 /* Colours that mean something. */
-#include "render/soft/palette.h"
-
 #include "render/soft/draw.h"
 
 /* From pale yellow over orange and purple to dark blue: lightness falls all the way, so that the

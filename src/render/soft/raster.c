@@ -3,7 +3,7 @@
  * Four samples per pixel lie on a rotated grid. Along one line of samples a convex face is one run
  * of pixels, whose ends come from its edges; a shared edge is worked out from the same two corners
  * in the same order, so neighbouring faces neither overlap nor leave gaps. */
-#include "render/soft/raster.h"
+#include "render/soft/passes.h"
 
 #include "kernel/kernel.h"
 #include "render/soft/soft.h"

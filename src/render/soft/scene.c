@@ -1,10 +1,7 @@
 /* Bodies of a snapshot as faces in the picture, nearest body first. */
-#include "render/soft/scene.h"
+#include "render/soft/passes.h"
 
-#include "render/body_look.h"
-#include "render/soft/face.h"
-#include "render/soft/obscure.h"
-#include "render/soft/scene_model.h"
+#include "render/body_texture.h"
 #include "render/soft/soft.h"
 
 #include <string.h>

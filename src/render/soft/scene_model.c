@@ -1,8 +1,7 @@
 /* Bodies that are drawn as models: their triangles as faces, each with a skin. */
-#include "render/soft/scene_model.h"
+#include "render/soft/passes.h"
 
-#include "render/body_look.h"
-#include "render/soft/face.h"
+#include "render/body_texture.h"
 #include "render/soft/soft.h"
 
 #include <string.h>

@@ -1,10 +1,9 @@
 /* Pixels of faces that samples see, with what is linear in the picture there: into a stream. */
-#include "render/soft/shade.h"
+#include "render/soft/passes.h"
 
 #include "kernel/kernel.h"
-#include "render/soft/body_light.h"
-#include "render/soft/soft.h"
 #include "render/soft/stream.h"
+#include "render/soft/soft.h"
 
 /* Of a row of a face from pixel x on. */
 typedef struct run {

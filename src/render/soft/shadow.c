@@ -2,11 +2,10 @@
  *
  * Where the real depth is smooth the light is worked out every few pixels and is linear between;
  * around edges every CASTER_BLOCK pixels have their own. */
-#include "render/soft/shadow.h"
+#include "render/soft/passes.h"
 
 #include "environment/depth_edge.h"
 #include "kernel/kernel.h"
-#include "render/soft/pixels.h"
 #include "render/soft/soft.h"
 
 #define WIDTH SOFT_SHADE_WIDTH

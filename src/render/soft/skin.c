@@ -2,7 +2,7 @@
  *
  * The level is chosen once for the pixels of a call, where a step of a pixel across or down the
  * picture, whichever is longer, is one texel: nothing shimmers. Two levels are mixed. */
-#include "render/soft/skin.h"
+#include "render/soft/passes.h"
 
 #include "kernel/kernel.h"
 #include "render/soft/soft.h"

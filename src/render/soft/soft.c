@@ -1,21 +1,11 @@
 /* The CPU renderer: creation, and the order in which a picture is drawn. */
 #include "render/soft/soft.h"
 
-#include "base/cookie.h"
+#include "base/checks.h"
 #include "camera/checks.h"
 #include "render/render.h"
-#include "render/soft/background.h"
-#include "render/soft/bodies.h"
-#include "render/soft/face.h"
-#include "render/soft/needed.h"
-#include "render/soft/overlay.h"
-#include "render/soft/scene.h"
-#include "render/soft/marks.h"
-#include "render/soft/view_contacts.h"
-#include "render/soft/view_known.h"
-#include "render/soft/view_map.h"
-#include "render/soft/view_mesh.h"
-#include "render/soft/view_points.h"
+#include "render/soft/passes.h"
+#include "render/soft/draw.h"
 #include "render/soft/views.h"
 
 #include <string.h>

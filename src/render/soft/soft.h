@@ -1,5 +1,5 @@
-/* Inside the CPU renderer: the values its files share. What a file does for others is in the header
- * of its name.
+/* Inside the CPU renderer: the values its files share. passes.h, views.h and draw.h
+ * say what its files do for each other.
  *
  *   picture = background (colour, or depth in grey)
  *           + shadows of the bodies on it
@@ -15,11 +15,9 @@
 #include "relief/model.h"
 #include "render/body_texture.h"
 #include "render/caster.h"
-#include "environment/light_direction.h"
-#include "render/obscurance.h"
-#include "environment/room_light.h"
-#include "environment/real_depth.h"
+#include "environment/light.h"
 #include "render/real_shade.h"
+#include "environment/real_depth.h"
 #include "render/shape_mesh.h"
 #include "environment/edge_matte.h"
 
@@ -180,6 +178,18 @@ typedef struct soft_group {
     soft_ends *ends;         /* of those in the group */
     uint8_t *crowd;          /* work memory: bodies in each SOFT_CROWD_PX columns of a group */
 } soft_group;
+
+/* `count` pixels of row y from x on. */
+typedef struct soft_lanes_at {
+    int32_t x, y, count;
+} soft_lanes_at;
+
+/* A grid image, enlarged into the picture. */
+typedef struct soft_fit {
+    double scale;   /* picture pixels per grid pixel */
+    int32_t x0, y0; /* of the grid image in the picture */
+    int32_t width, height;
+} soft_fit;
 
 #define SOFT_SHADE_WIDTH 32 /* pixels of a tile; it is as high as a band */
 #define SOFT_SHADE_SAMPLES ((SOFT_SHADE_WIDTH / CASTER_BLOCK) * (SOFT_BAND_ROWS / CASTER_BLOCK))

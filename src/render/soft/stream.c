@@ -4,7 +4,7 @@
 #include "render/soft/stream.h"
 
 #include "kernel/kernel.h"
-#include "render/soft/skin.h"
+#include "render/soft/passes.h"
 #include "render/soft/soft.h"
 
 #include <string.h>

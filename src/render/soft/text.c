@@ -1,8 +1,5 @@
 /* Letters of a fixed font. */
-#include "render/soft/text.h"
-
 #include "render/soft/draw.h"
-#include "render/soft/font.h"
 
 #include "relief/compositor.h"
 

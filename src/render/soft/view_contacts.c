@@ -1,8 +1,7 @@
 /* Contacts over the camera's picture: where, in which direction, and how hard. */
-#include "render/soft/view_contacts.h"
+#include "render/soft/views.h"
 
 #include "render/soft/draw.h"
-#include "render/soft/palette.h"
 #include "render/soft/soft.h"
 
 #define LENGTH_LEAST_M 0.03  /* of an arrow without impulse */

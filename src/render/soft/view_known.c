@@ -1,9 +1,8 @@
 /* Models of real things as wireframes over the camera's picture. */
-#include "render/soft/view_known.h"
+#include "render/soft/views.h"
 
-#include "render/body_look.h"
+#include "render/body_texture.h"
 #include "render/soft/draw.h"
-#include "render/soft/palette.h"
 #include "render/soft/soft.h"
 
 #define CIRCLE 32 /* corners */

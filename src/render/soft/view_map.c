@@ -1,14 +1,10 @@
 /* The fused room from anywhere: a prediction, enlarged into the picture; then the bodies as in the
  * main view, with its depth for the real world; then where the camera has been. */
-#include "render/soft/view_map.h"
+#include "render/soft/views.h"
 
 #include "environment/depth_edge.h"
-#include "render/soft/bodies.h"
+#include "render/soft/passes.h"
 #include "render/soft/draw.h"
-#include "render/soft/palette.h"
-#include "render/soft/scene.h"
-#include "render/soft/text.h"
-#include "render/soft/view_points.h"
 
 typedef struct map_job {
     const soft *s;

@@ -1,10 +1,8 @@
 /* Boxes, labels and arrows over the views. */
-#include "render/soft/view_marks.h"
+#include "render/soft/views.h"
 
 #include "render/soft/draw.h"
-#include "render/soft/palette.h"
 #include "render/soft/soft.h"
-#include "render/soft/text.h"
 
 #include <stdio.h>
 

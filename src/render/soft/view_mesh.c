@@ -1,8 +1,7 @@
 /* The triangle mesh of the grid over the picture (thesis fig. 4.3 and 4.5). */
-#include "render/soft/view_mesh.h"
+#include "render/soft/views.h"
 
 #include "render/soft/draw.h"
-#include "render/soft/palette.h"
 #include "render/soft/soft.h"
 
 #define SPACING_PX 8  /* of the full depth image, as with the thesis's scale factor */

@@ -2,15 +2,12 @@
  *
  * Points are drawn as squares as large as the surface between them, into a depth buffer; then the
  * bodies as in the main view, with that buffer for the real world. */
-#include "render/soft/view_points.h"
+#include "render/soft/views.h"
 
 #include "render/render.h"
-#include "render/soft/bodies.h"
+#include "render/soft/passes.h"
 #include "render/soft/draw.h"
-#include "render/soft/palette.h"
-#include "render/soft/scene.h"
 #include "render/soft/soft.h"
-#include "render/soft/views.h"
 
 #define SPLAT_MAX 12.0 /* pixels: half a square */
 #define FRUSTUM_M 0.25 /* length of the camera that is drawn */

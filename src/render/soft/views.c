@@ -2,9 +2,7 @@
 #include "render/soft/views.h"
 
 #include "render/soft/draw.h"
-#include "render/soft/palette.h"
 #include "render/soft/soft.h"
-#include "render/soft/view_marks.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* Scripts that show a gesture with a raised hand, three times. */
 #include "sim/hands/hands.h"
-#include "sim/random/draw.h"
+#include "sim/hash.h"
 
 #define DEGREE (RLF_PI / 180.0)
 #define TIMES 3

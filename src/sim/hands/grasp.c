@@ -1,6 +1,6 @@
 /* Scripts that grasp: where the hand must be for its fingers to meet the body, and when. */
 #include "sim/hands/hands.h"
-#include "sim/random/draw.h"
+#include "sim/hash.h"
 
 #define DEGREE (RLF_PI / 180.0)
 #define RISE 0.15     /* metres */

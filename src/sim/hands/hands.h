@@ -2,7 +2,7 @@
 #ifndef RLF_SIM_HANDS_HANDS_H
 #define RLF_SIM_HANDS_HANDS_H
 
-#include "sim/random/draw.h"
+#include "sim/hash.h"
 #include "sim/scene.h"
 #include "relief/synthetic_hands.h"
 

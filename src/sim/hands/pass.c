@@ -1,6 +1,6 @@
 /* A hand that moves among bodies, beside, above and against them, and grasps none. */
 #include "sim/hands/hands.h"
-#include "sim/random/draw.h"
+#include "sim/hash.h"
 
 #define LEGS 12    /* ways of the hand ... */
 #define LEG_S 0.75 /* ... in seconds each */

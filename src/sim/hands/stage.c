@@ -1,6 +1,6 @@
 /* The table, the camera and the choice of the script. */
 #include "sim/hands/hands.h"
-#include "sim/random/draw.h"
+#include "sim/hash.h"
 
 #define DEGREE (RLF_PI / 180.0)
 #define FLOOR 0.75     /* metres under the table's top */

@@ -1,6 +1,6 @@
 /* Who and what moves in a random room. */
 #include "sim/bones.h"
-#include "sim/random/random.h"
+#include "sim/random/plan.h"
 
 #define RAMP 0.4 /* s in which a tray reaches its speed along the circle */
 

@@ -8,7 +8,7 @@
  * grow with the noise: Holzer et al. 2012, section III-C; here the residuals decide as well.) */
 #include "surface/steps.h"
 
-#include "kernel/wide.h"
+#include "kernel/plane_window.h"
 
 /* Standard deviation of the slope of a plane through 10x10 pixels, in those of one pixel's depth
  * per pixel: sqrt(12) / (10 * 10). */

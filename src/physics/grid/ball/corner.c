@@ -4,7 +4,7 @@
  * fraction of a pixel, also where the pixels beside the edge are wrong. A ball touches the solid
  * behind all of them where that comes nearest to its centre: on a face, on an edge or in the
  * corner. */
-#include "physics/grid/ball/corner.h"
+#include "physics/grid/ball/ball.h"
 
 #define TRIES 4         /* planes that are looked for */
 #define BESIDE_PX 2     /* of the place that is touched the faces are seen, steps */

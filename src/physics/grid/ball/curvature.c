@@ -4,7 +4,7 @@
  * matrix of curvatures. The ball's centre is c beside the mean point; a place x of the face has the
  * direction (c - x) / radius to it, which is its normal where K x = (c - x) / radius. So each of
  * K's eigenvectors has x = c / (1 + radius k) along it. */
-#include "physics/grid/ball/patch.h"
+#include "physics/grid/ball/ball.h"
 #include "math/eigen.h"
 
 #define NARROW2 2e-6 /* m^2: a patch that narrow tells no curvature */

@@ -5,8 +5,6 @@
  * nearest. Where that plane ends before the ball's centre is above it, the ball meets an edge, and
  * the contact points from the edge to the centre. */
 #include "physics/grid/ball/ball.h"
-#include "physics/grid/ball/corner.h"
-#include "physics/grid/ball/patch.h"
 
 #define EDGE_MOVES 6
 #define PLANE_NEAR (2.0 * GRID_MARGIN) /* metres: a plane through a sample, up to noise */

@@ -1,6 +1,6 @@
 /* Reading the pixels about a touch, and what they say together. */
-#include "physics/grid/ball/patch.h"
-#include "physics/grid/contour.h"
+#include "physics/grid/ball/ball.h"
+#include "physics/grid/field.h"
 
 #define RAW 3.0 /* noise of one frame beside that of a mean over ten */
 

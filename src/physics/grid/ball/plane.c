@@ -1,5 +1,5 @@
 /* Planes by their support among the points of a patch, refined by least squares. */
-#include "physics/grid/ball/patch.h"
+#include "physics/grid/ball/ball.h"
 
 #define LIKE 0.85         /* cosine between normals of one face beside its edge */
 #define LEAST_SUPPORT 6.0 /* samples */

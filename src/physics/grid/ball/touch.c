@@ -1,8 +1,7 @@
 /* A ball's touches: every pixel says when the moving ball would reach it; the earliest of each
  * direction is one. */
 #include "physics/grid/ball/ball.h"
-#include "physics/grid/contour.h"
-#include "physics/grid/ball/patch.h"
+#include "physics/grid/field.h"
 
 bool grid_ball_time(const grid_job *job, rlf_vec3 p, rlf_vec3 velocity, double wider, double *out)
 {

@@ -2,7 +2,7 @@
 #ifndef RLF_PHYSICS_GRID_CONTACT_SEARCH_H
 #define RLF_PHYSICS_GRID_CONTACT_SEARCH_H
 
-#include "kernel/box_lanes.h"
+#include "kernel/lanes.h"
 #include "physics/grid/job.h"
 
 #define GRID_NEAR_MAX RLF_BOX_LANES

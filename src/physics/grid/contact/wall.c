@@ -1,7 +1,7 @@
 /* Side walls: an outline's pixel stands for the wall of the solid behind it, from front to back. */
 #include "physics/grid/ball/ball.h"
 #include "physics/grid/contact/search.h"
-#include "physics/grid/contour.h"
+#include "physics/grid/field.h"
 
 /* A neighbour that is neither missing from the mask nor farther is over no step; see
  * grid_contour_end. */

@@ -41,4 +41,13 @@ void room_planes_carry(room_planes *shell, const rlf_pose *T_before_now);
 /* Whether the shell counts at q (grid frame): the camera does not see that place. */
 bool room_is_hidden(const rlf_grid *grid, rlf_vec3 q);
 
+/* ---- upright_face.c: what stands goes on downwards behind what hides it: a column behind a
+ * table. */
+
+/* The plane of the background's upright face under which q is: going up from q, the face is what
+ * the camera sees first, past whatever hides it, within `reach` of q. `up` is a unit vector. Grid
+ * frame. False when there is none. */
+bool upright_face_find(const rlf_grid *grid, rlf_vec3 q, rlf_vec3 up, double reach,
+                       room_plane *out);
+
 #endif

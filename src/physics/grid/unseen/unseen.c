@@ -15,7 +15,7 @@
  * Without RLF_BORDER_EXTEND 2 to 4 are off. */
 #include "physics/grid/mapped/mapped.h"
 #include "physics/grid/unseen/unseen.h"
-#include "physics/grid/unseen/upright_face.h"
+#include "physics/grid/unseen/room_planes.h"
 
 /* The room's planes push out whatever is behind them; a guessed face stops what comes to it. */
 #define ENDLESS 1e9

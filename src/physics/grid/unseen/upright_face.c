@@ -1,7 +1,6 @@
 /* Search for an upright face above a hidden place. */
-#include "physics/grid/unseen/upright_face.h"
+#include "physics/grid/unseen/room_planes.h"
 #include "physics/grid/field.h"
-#include "physics/grid/tolerance.h"
 
 #define HIGHEST_M 2.5               /* above the place that is searched: a room's height */
 #define DEEPEST_M (2 * GRID_THIN_M) /* a place farther behind a face came there another way */
