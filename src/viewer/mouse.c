@@ -38,25 +38,25 @@ static bool ray_at(const viewer *v, double x, double y, viewer_ray *out)
     return true;
 }
 
-void viewer_press(viewer *v, viewer_wishes *wishes)
+void viewer_press(viewer *v, viewer_commands *commands)
 {
     double share;
     viewer_ray ray;
     rlf_ray_hit hit;
     const rlf_world *world = rlf_pipeline_get_world(v->stage.pipeline);
     const bool is_up = !v->window.is_dragging; /* a click: it went up already */
-    bool is_taken = viewer_seek_pick(v, wishes->press_x, wishes->press_y, false, &share);
+    bool is_taken = viewer_seek_pick(v, commands->press_x, commands->press_y, false, &share);
     if (is_taken) {
         viewer_seek_to(v, share);
         v->is_seeking = !is_up;
-    } else if (!v->place.is_on && ray_at(v, wishes->press_x, wishes->press_y, &ray) &&
+    } else if (!v->place.is_on && ray_at(v, commands->press_x, commands->press_y, &ray) &&
                viewer_grab_find(world, &ray, &hit)) {
         viewer_grab_begin(&v->grab, world, &ray, &hit);
         v->grab.is_on = v->grab.is_on && !is_up;
         is_taken = true;
     }
     if (is_taken) {
-        wishes->throw_body = false;
+        commands->throw_body = false;
         v->window.is_held = !is_up;
         v->window.is_dragging = false;
     }
@@ -94,19 +94,19 @@ static void throw_body(viewer *v, const viewer_ray *ray, double drag_fraction)
 }
 
 /* A click throws a body, or picks a point of the model that is being placed. */
-void viewer_click(viewer *v, const viewer_wishes *wishes)
+void viewer_click(viewer *v, const viewer_commands *commands)
 {
     double u, w;
     viewer_ray ray;
     char text[VIEWER_PLACE_TEXT];
-    if (!pixel_at(v, wishes->throw_x, wishes->throw_y, &u, &w)) {
+    if (!pixel_at(v, commands->throw_x, commands->throw_y, &u, &w)) {
         return;
     }
     if (v->place.is_on) {
         viewer_place_pick(&v->place, v->stage.pipeline, u, w, text);
         viewer_show_message(v, text);
-    } else if (ray_at(v, wishes->throw_x, wishes->throw_y, &ray)) {
-        throw_body(v, &ray, wishes->throw_drag_fraction);
+    } else if (ray_at(v, commands->throw_x, commands->throw_y, &ray)) {
+        throw_body(v, &ray, commands->throw_drag_fraction);
     } else {
         viewer_show_message(v, "no throws in this view: B puts the camera beside it");
     }

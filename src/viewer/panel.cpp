@@ -77,10 +77,10 @@ int32_t viewer_panel_get_width(const viewer_panel *panel)
     return width >= 2 * own && height >= 100 ? own : 0;
 }
 
-void panel_wish_for(viewer_panel *p, panel_wish wish, const char *text)
+void panel_ask_for(viewer_panel *p, panel_request request, const char *text)
 {
-    p->wish = wish;
-    snprintf(p->wished, sizeof p->wished, "%s", text);
+    p->request = request;
+    snprintf(p->request_text, sizeof p->request_text, "%s", text);
 }
 
 void panel_note(const char *text)
@@ -165,14 +165,14 @@ static void draw_all(viewer_panel *p)
 /* What was asked for replaces what the parts look at, so it comes after them. */
 static void fulfil(viewer_panel *p)
 {
-    const panel_wish wish = p->wish;
-    p->wish = PANEL_NOTHING;
-    switch (wish) {
+    const panel_request request = p->request;
+    p->request = PANEL_NOTHING;
+    switch (request) {
     case PANEL_NOTHING: break;
-    case PANEL_SOURCE: (void)viewer_open_stage(p->v, RLF_WINDOW_OPEN_SOURCE, p->wished); break;
-    case PANEL_SCENE: (void)viewer_open_stage(p->v, RLF_WINDOW_OPEN_SCENE, p->wished); break;
-    case PANEL_SETTING: (void)viewer_open_stage(p->v, RLF_WINDOW_OPEN_SETTING, p->wished); break;
-    case PANEL_MODEL: viewer_open_path(p->v, p->wished); break;
+    case PANEL_SOURCE: (void)viewer_open_stage(p->v, RLF_WINDOW_OPEN_SOURCE, p->request_text); break;
+    case PANEL_SCENE: (void)viewer_open_stage(p->v, RLF_WINDOW_OPEN_SCENE, p->request_text); break;
+    case PANEL_SETTING: (void)viewer_open_stage(p->v, RLF_WINDOW_OPEN_SETTING, p->request_text); break;
+    case PANEL_MODEL: viewer_open_path(p->v, p->request_text); break;
     }
 }
 

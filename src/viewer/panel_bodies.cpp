@@ -8,7 +8,7 @@ static void remake_model(viewer_panel *p)
 {
     const viewer *v = p->v;
     if (v->thrown.kind == VIEWER_THROW_MODEL) {
-        panel_wish_for(p, PANEL_MODEL, v->thrown.model);
+        panel_ask_for(p, PANEL_MODEL, v->thrown.model);
     }
 }
 
@@ -60,7 +60,7 @@ void panel_draw_bodies(viewer_panel *p)
     if (ImGui::InputTextWithHint("model", ".glb, .gltf, .obj", p->model, sizeof p->model,
                                  ImGuiInputTextFlags_EnterReturnsTrue) &&
         p->model[0] != '\0') {
-        panel_wish_for(p, PANEL_MODEL, p->model);
+        panel_ask_for(p, PANEL_MODEL, p->model);
     }
     if (ImGui::Button("Delete all bodies")) {
         delete_all(v);

@@ -9,7 +9,7 @@ extern "C" {
 }
 
 /* Something to do once the picture is drawn: it may replace what the parts look at. */
-enum panel_wish { PANEL_NOTHING, PANEL_SOURCE, PANEL_SCENE, PANEL_SETTING, PANEL_MODEL };
+enum panel_request { PANEL_NOTHING, PANEL_SOURCE, PANEL_SCENE, PANEL_SETTING, PANEL_MODEL };
 
 struct viewer_panel {
     viewer *v;
@@ -20,11 +20,11 @@ struct viewer_panel {
     char source[RLF_WINDOW_SOURCE_SIZE], scene[RLF_WINDOW_SOURCE_SIZE],
         model[RLF_WINDOW_SOURCE_SIZE];
     rlf_vec3 down; /* unit; where gravity pulls to, also while it is off */
-    panel_wish wish;
-    char wished[RLF_WINDOW_SOURCE_SIZE];
+    panel_request request;
+    char request_text[RLF_WINDOW_SOURCE_SIZE];
 };
 
-void panel_wish_for(viewer_panel *p, panel_wish wish, const char *text);
+void panel_ask_for(viewer_panel *p, panel_request request, const char *text);
 /* Grey text in as many lines as it takes. */
 void panel_note(const char *text);
 

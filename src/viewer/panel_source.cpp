@@ -14,7 +14,7 @@ static void look(viewer_panel *p)
 
 /* A list to choose from; what is typed below may be any other. */
 static void draw_choices(viewer_panel *p, const char *label, const char *now,
-                         const rlf_window_choice *choices, int count, panel_wish wish)
+                         const rlf_window_choice *choices, int count, panel_request request)
 {
     if (!ImGui::BeginCombo(label, now)) {
         return;
@@ -25,7 +25,7 @@ static void draw_choices(viewer_panel *p, const char *label, const char *now,
     for (int i = 0; i < count; i++) {
         ImGui::PushID(i);
         if (ImGui::Selectable(choices[i].text)) {
-            panel_wish_for(p, wish, choices[i].source);
+            panel_ask_for(p, request, choices[i].source);
         }
         ImGui::PopID();
     }
@@ -33,12 +33,12 @@ static void draw_choices(viewer_panel *p, const char *label, const char *now,
 }
 
 static void draw_path(viewer_panel *p, const char *label, const char *hint, char *text,
-                      panel_wish wish)
+                      panel_request request)
 {
     if (ImGui::InputTextWithHint(label, hint, text, RLF_WINDOW_SOURCE_SIZE,
                                  ImGuiInputTextFlags_EnterReturnsTrue) &&
         text[0] != '\0') {
-        panel_wish_for(p, wish, text);
+        panel_ask_for(p, request, text);
     }
 }
 

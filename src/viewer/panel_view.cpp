@@ -50,7 +50,7 @@ static void wish_setting(viewer_panel *p, const rlf_window_setting *s, const cha
 {
     char text[96];
     snprintf(text, sizeof text, "%s=%s", s->name, value);
-    panel_wish_for(p, PANEL_SETTING, text);
+    panel_ask_for(p, PANEL_SETTING, text);
 }
 
 static void draw_words(viewer_panel *p, const rlf_window_setting *s)
@@ -99,7 +99,7 @@ void panel_draw_settings(viewer_panel *p)
     }
     panel_note("How depth becomes a surface. A change begins the scene again.");
     if (ImGui::Button("As the profile has them")) {
-        panel_wish_for(p, PANEL_SETTING, "");
+        panel_ask_for(p, PANEL_SETTING, "");
     }
     rlf_window_setting s;
     for (int i = 0; o->on_setting(o->context, i, def, &s); i++) {

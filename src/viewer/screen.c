@@ -96,7 +96,7 @@ static void on_monitor(GLFWmonitor *monitor, int event)
     if (glfwGetPrimaryMonitor() != NULL) {
         move_to(watched, glfwGetPrimaryMonitor());
     }
-    watched->wishes.is_screen_lost = true;
+    watched->commands.is_screen_lost = true;
 }
 
 void viewer_screen_watch(viewer_window *window)

@@ -124,27 +124,27 @@ static void click(start_page *page, double x, double y)
 }
 
 /* True when the page looks otherwise now. */
-static bool fulfil_wishes(start_page *page)
+static bool run_commands(start_page *page)
 {
-    const viewer_wishes wishes = page->window.wishes;
-    page->window.wishes = (viewer_wishes){.view = -1};
-    if (wishes.restart) {
+    const viewer_commands commands = page->window.commands;
+    page->window.commands = (viewer_commands){.view = -1};
+    if (commands.restart) {
         look_again(page);
     }
-    if (wishes.leave) {
+    if (commands.leave) {
         viewer_window_leave(&page->window);
     }
-    const int32_t step = wishes.nudge_y - (int32_t)wishes.zoom;
+    const int32_t step = commands.nudge_y - (int32_t)commands.zoom;
     const int32_t selected = page->selected + step;
     page->selected = (int32_t)rlf_clamp(selected, 0, page->count - 1);
-    choose(page, wishes.view);
-    if (wishes.solve_points) {
+    choose(page, commands.view);
+    if (commands.solve_points) {
         choose(page, page->selected);
     }
-    if (wishes.throw_body) {
-        click(page, wishes.throw_x, wishes.throw_y);
+    if (commands.throw_body) {
+        click(page, commands.throw_x, commands.throw_y);
     }
-    return wishes.restart || wishes.refresh || step != 0;
+    return commands.restart || commands.refresh || step != 0;
 }
 
 static rlf_result run(start_page *page, const volatile sig_atomic_t *interrupted)
@@ -160,7 +160,7 @@ static rlf_result run(start_page *page, const volatile sig_atomic_t *interrupted
             present(page);
         }
         viewer_window_poll(&page->window, WAIT_S);
-        is_present_due = fulfil_wishes(page);
+        is_present_due = run_commands(page);
         result = is_present_due ? draw(page) : RLF_OK;
     }
     return result;

@@ -1,4 +1,4 @@
-/* What the parts of the window share: its state, its text and what its user wishes. */
+/* What the parts of the window share: its state, its text and what its user commands. */
 #ifndef RLF_VIEWER_STATE_H
 #define RLF_VIEWER_STATE_H
 
@@ -76,7 +76,7 @@ static inline rlf_pose viewer_camera(const viewer *v)
     return v->has_frame ? v->frame.T_world_camera : v->options->T_world_camera;
 }
 
-/* message.c: puts a message over the picture for as long as it takes to read, and in the panel. */
+/* lines.c: puts a message over the picture for as long as it takes to read, and in the panel. */
 void viewer_show_message(viewer *v, const char *text);
 /* Of something that failed: in full screen, too. */
 void viewer_show_error(viewer *v, const char *text);
@@ -85,7 +85,7 @@ void viewer_show_result(viewer *v, rlf_result result, const char *text);
 /* Ends those over the picture whose time is over. */
 void viewer_end_old_messages(viewer *v, int64_t now_ns);
 
-/* area.c: the window's part for the picture, in the unit of mouse positions. */
+/* overlay.c: the window's part for the picture, in the unit of mouse positions. */
 void viewer_get_area(const viewer *v, int32_t *out_width, int32_t *out_height);
 bool viewer_is_overlay_shown(const viewer *v);
 /* Makes an overlay image of that size, clear; false without memory. */
@@ -106,7 +106,7 @@ void viewer_add_messages(viewer *v, int32_t columns);
 /* overlay.c: lines of text and marks, at the window's resolution, over what was drawn. */
 void viewer_draw_overlay(viewer *v, int32_t width, int32_t height);
 
-/* act.c: what keys, mouse and panel may all ask for. */
+/* actions.c: what keys, mouse and panel may all ask for. */
 void viewer_choose_renderer(viewer *v); /* of a new pipeline */
 void viewer_set_view(viewer *v, rlf_view view);
 void viewer_set_end(viewer *v, rlf_playback_end end);
@@ -126,12 +126,12 @@ void viewer_open_path(viewer *v, const char *path);
 bool viewer_open_stage(viewer *v, rlf_window_opening what, const char *text);
 
 /* mouse.c: throws, picks up, deletes. */
-void viewer_press(viewer *v, viewer_wishes *wishes);
+void viewer_press(viewer *v, viewer_commands *commands);
 void viewer_follow_mouse(viewer *v);
-void viewer_click(viewer *v, const viewer_wishes *wishes);
+void viewer_click(viewer *v, const viewer_commands *commands);
 void viewer_delete(viewer *v);
 
-/* wishes.c: does what keys and mouse asked for since the last call. */
-void viewer_fulfil_wishes(viewer *v);
+/* commands.c: does what keys and mouse asked for since the last call. */
+void viewer_run_commands(viewer *v);
 
 #endif

@@ -207,7 +207,7 @@ static rlf_result run_loop(viewer *v)
         bool is_playing = !v->is_paused && !v->is_at_end;
         wait_for_events(v, is_playing);
         measure_panel(v);
-        viewer_fulfil_wishes(v);
+        viewer_run_commands(v);
         measure_panel(v);
         int64_t now = rlf_clock_ns();
         viewer_end_old_messages(v, now);

@@ -67,7 +67,7 @@ rlf_result viewer_window_open(const char *title, const viewer_window_size *size,
     int32_t width;
     int32_t height;
     *out = (viewer_window){0};
-    out->wishes.view = -1;
+    out->commands.view = -1;
     glfw_message[0] = '\0';
     glfwSetErrorCallback(note_error);
     if (!glfwInit()) {

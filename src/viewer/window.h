@@ -11,7 +11,7 @@ typedef struct GLFWmonitor GLFWmonitor;
 #define VIEWER_TAPS_MAX 8
 
 /* Wishes since the last look, to be cleared by who fulfils them. */
-typedef struct viewer_wishes {
+typedef struct viewer_commands {
     bool toggle_pause, step, restart, toggle_help, next_view, save_picture, throw_body,
         toggle_record;
     bool refresh;            /* the window must be drawn again */
@@ -33,11 +33,11 @@ typedef struct viewer_wishes {
     bool next_object, skip_point, undo_points, solve_points, save_scene;
     int32_t nudge_x, nudge_y, nudge_z, nudge_turn; /* steps; y down, z away */
     bool is_fine;                                  /* with shift: small steps */
-} viewer_wishes;
+} viewer_commands;
 
 typedef struct viewer_window {
     GLFWwindow *handle;
-    viewer_wishes wishes;
+    viewer_commands commands;
     bool is_dragging;
     bool is_held; /* the left button is down on something: no throw */
     double press_x, press_y;
@@ -85,7 +85,7 @@ double viewer_window_get_drag(const viewer_window *window);
 void viewer_window_get_cursor(const viewer_window *window, double *out_x, double *out_y);
 void viewer_window_swap(viewer_window *window);
 
-/* input.c: keys, mouse and dropped files become wishes. */
+/* input.c: keys, mouse and dropped files become commands. */
 void viewer_window_take_input(viewer_window *window);
 
 /* screen.c: chooses the monitor for full screen, from 1 in the order of `relief run --monitor`; 0 =

@@ -4,17 +4,17 @@
 #include <stdio.h>
 
 /* Half a turn for the window's height. */
-static void turn(viewer *v, const viewer_wishes *wishes)
+static void turn(viewer *v, const viewer_commands *commands)
 {
     double zoom = v->orbit.zoom > 0.0 ? v->orbit.zoom : 1.0;
-    for (double step = wishes->zoom; step >= 0.5; step -= 1.0) {
+    for (double step = commands->zoom; step >= 0.5; step -= 1.0) {
         zoom *= 0.9;
     }
-    for (double step = wishes->zoom; step <= -0.5; step += 1.0) {
+    for (double step = commands->zoom; step <= -0.5; step += 1.0) {
         zoom /= 0.9;
     }
-    v->orbit.yaw -= RLF_PI * wishes->turn_x;
-    v->orbit.pitch = rlf_clamp(v->orbit.pitch + RLF_PI * wishes->turn_y, -1.5, 1.5);
+    v->orbit.yaw -= RLF_PI * commands->turn_x;
+    v->orbit.pitch = rlf_clamp(v->orbit.pitch + RLF_PI * commands->turn_y, -1.5, 1.5);
     v->orbit.zoom = rlf_clamp(zoom, 0.1, 10.0);
     rlf_pipeline_set_orbit(v->stage.pipeline, &v->orbit);
     v->is_redraw_due = true;
@@ -34,14 +34,14 @@ static void save_scene(viewer *v)
 }
 
 /* Moves a model by a centimetre and a degree, or a tenth of that. */
-static void nudge(viewer *v, const viewer_wishes *wishes)
+static void nudge(viewer *v, const viewer_commands *commands)
 {
     char text[VIEWER_PLACE_TEXT];
-    double step = wishes->is_fine ? 0.1 : 1.0;
-    rlf_vec3 shift = {wishes->nudge_x, wishes->nudge_y, wishes->nudge_z};
+    double step = commands->is_fine ? 0.1 : 1.0;
+    rlf_vec3 shift = {commands->nudge_x, commands->nudge_y, commands->nudge_z};
     const rlf_pose T_world_camera = viewer_camera(v);
     viewer_place_nudge(&v->place, v->stage.pipeline, &T_world_camera, rlf_scale(shift, 0.01 * step),
-                       wishes->nudge_turn * step * RLF_PI / 180.0, text);
+                       commands->nudge_turn * step * RLF_PI / 180.0, text);
     if (text[0] != '\0') {
         viewer_show_message(v, text);
     }
@@ -57,17 +57,17 @@ static void toggle_place(viewer *v)
     viewer_show_message(v, text);
 }
 
-static void fulfil_place_wishes(viewer *v, const viewer_wishes *wishes)
+static void run_place_commands(viewer *v, const viewer_commands *commands)
 {
     const struct {
         bool is_due;
         viewer_place_action action;
-    } acts[4] = {{wishes->next_object, VIEWER_PLACE_NEXT_OBJECT},
-                 {wishes->skip_point, VIEWER_PLACE_SKIP},
-                 {wishes->undo_points, VIEWER_PLACE_UNDO},
-                 {wishes->solve_points, VIEWER_PLACE_SOLVE}};
+    } acts[4] = {{commands->next_object, VIEWER_PLACE_NEXT_OBJECT},
+                 {commands->skip_point, VIEWER_PLACE_SKIP},
+                 {commands->undo_points, VIEWER_PLACE_UNDO},
+                 {commands->solve_points, VIEWER_PLACE_SOLVE}};
     char text[VIEWER_PLACE_TEXT];
-    if (wishes->toggle_place) {
+    if (commands->toggle_place) {
         toggle_place(v);
     }
     for (int i = 0; i < 4 && v->place.is_on; i++) {
@@ -76,11 +76,11 @@ static void fulfil_place_wishes(viewer *v, const viewer_wishes *wishes)
             viewer_show_message(v, text);
         }
     }
-    if (wishes->nudge_x != 0 || wishes->nudge_y != 0 || wishes->nudge_z != 0 ||
-        wishes->nudge_turn != 0) {
-        nudge(v, wishes);
+    if (commands->nudge_x != 0 || commands->nudge_y != 0 || commands->nudge_z != 0 ||
+        commands->nudge_turn != 0) {
+        nudge(v, commands);
     }
-    if (wishes->save_scene && v->place.is_on) {
+    if (commands->save_scene && v->place.is_on) {
         save_scene(v);
     }
 }
@@ -122,95 +122,95 @@ static void leave(viewer *v)
     }
 }
 
-static void fulfil_switches(viewer *v, const viewer_wishes *wishes)
+static void run_switches(viewer *v, const viewer_commands *commands)
 {
-    if (wishes->toggle_overlay) {
+    if (commands->toggle_overlay) {
         toggle_overlay(v);
     }
-    v->is_mirrored = v->is_mirrored != wishes->toggle_mirror;
-    v->shows_panel = v->shows_panel != wishes->toggle_panel;
-    v->shows_help = v->shows_help != wishes->toggle_help;
-    if (wishes->toggle_panel && v->panel == NULL) {
+    v->is_mirrored = v->is_mirrored != commands->toggle_mirror;
+    v->shows_panel = v->shows_panel != commands->toggle_panel;
+    v->shows_help = v->shows_help != commands->toggle_help;
+    if (commands->toggle_panel && v->panel == NULL) {
         viewer_show_error(v, viewer_panel_is_built()
                                  ? "no panel here: it needs OpenGL 3.3, and this display has ES"
                                  : "this build has no panel: " VIEWER_GET_PANEL);
     }
-    if (wishes->next_end && v->stage.playback != NULL) {
+    if (commands->next_end && v->stage.playback != NULL) {
         viewer_set_end(v,
                        (rlf_playback_end)((int)(rlf_playback_get_end(v->stage.playback) + 1) % 3));
     }
-    if (wishes->next_shape) {
+    if (commands->next_shape) {
         next_shape(v);
     }
-    if (wishes->leave) {
+    if (commands->leave) {
         leave(v);
     }
-    if (wishes->is_screen_lost) {
+    if (commands->is_screen_lost) {
         viewer_show_message(v, "the monitor is gone: the window is here again");
     }
-    v->is_present_due = v->is_present_due || wishes->refresh;
+    v->is_present_due = v->is_present_due || commands->refresh;
     v->extra_presents =
-        wishes->refresh && v->shows_panel && v->panel != NULL ? 2 : v->extra_presents;
+        commands->refresh && v->shows_panel && v->panel != NULL ? 2 : v->extra_presents;
 }
 
-static void fulfil_views(viewer *v, const viewer_wishes *wishes)
+static void run_views(viewer *v, const viewer_commands *commands)
 {
-    if (wishes->view >= 0 && wishes->view < RLF_VIEW_COUNT) {
-        viewer_set_view(v, (rlf_view)wishes->view);
+    if (commands->view >= 0 && commands->view < RLF_VIEW_COUNT) {
+        viewer_set_view(v, (rlf_view)commands->view);
     }
-    if (wishes->next_view) {
+    if (commands->next_view) {
         viewer_set_view(v, (rlf_view)((v->view + 1) % RLF_VIEW_COUNT));
     }
-    if (wishes->toggle_beside) {
+    if (commands->toggle_beside) {
         v->is_beside = !v->is_beside;
         viewer_set_view(v, v->view);
     }
-    if (v->grab.is_on && wishes->zoom != 0.0) {
-        viewer_grab_reach(&v->grab, wishes->zoom);
-    } else if (wishes->turn_x != 0.0 || wishes->turn_y != 0.0 || wishes->zoom != 0.0) {
-        turn(v, wishes);
+    if (v->grab.is_on && commands->zoom != 0.0) {
+        viewer_grab_reach(&v->grab, commands->zoom);
+    } else if (commands->turn_x != 0.0 || commands->turn_y != 0.0 || commands->zoom != 0.0) {
+        turn(v, commands);
     }
 }
 
-static void fulfil_playing(viewer *v, const viewer_wishes *wishes)
+static void run_playing(viewer *v, const viewer_commands *commands)
 {
-    if (wishes->toggle_pause || (wishes->step && !v->is_paused)) {
+    if (commands->toggle_pause || (commands->step && !v->is_paused)) {
         viewer_toggle_pause(v);
     }
-    v->is_step_due = v->is_step_due || (wishes->step && !v->is_at_end);
-    if (wishes->restart) {
+    v->is_step_due = v->is_step_due || (commands->step && !v->is_at_end);
+    if (commands->restart) {
         viewer_restart(v);
     }
-    if (!v->place.is_on && wishes->nudge_x != 0) {
-        seek_by(v, wishes->nudge_x);
+    if (!v->place.is_on && commands->nudge_x != 0) {
+        seek_by(v, commands->nudge_x);
     }
 }
 
-void viewer_fulfil_wishes(viewer *v)
+void viewer_run_commands(viewer *v)
 {
-    viewer_wishes wishes = v->window.wishes;
-    v->window.wishes = (viewer_wishes){.view = -1};
-    fulfil_switches(v, &wishes);
-    fulfil_playing(v, &wishes);
-    fulfil_views(v, &wishes);
-    fulfil_place_wishes(v, &wishes);
-    if (wishes.press) {
-        viewer_press(v, &wishes);
+    viewer_commands commands = v->window.commands;
+    v->window.commands = (viewer_commands){.view = -1};
+    run_switches(v, &commands);
+    run_playing(v, &commands);
+    run_views(v, &commands);
+    run_place_commands(v, &commands);
+    if (commands.press) {
+        viewer_press(v, &commands);
     }
     viewer_follow_mouse(v);
-    if (wishes.throw_body) {
-        viewer_click(v, &wishes);
+    if (commands.throw_body) {
+        viewer_click(v, &commands);
     }
-    if (wishes.delete_body) {
+    if (commands.delete_body) {
         viewer_delete(v);
     }
-    if (wishes.save_picture) {
+    if (commands.save_picture) {
         viewer_save_picture(v);
     }
-    if (wishes.toggle_record) {
+    if (commands.toggle_record) {
         viewer_toggle_record(v);
     }
-    if (wishes.has_drop) {
-        viewer_open_path(v, wishes.drop);
+    if (commands.has_drop) {
+        viewer_open_path(v, commands.drop);
     }
 }
