@@ -11,7 +11,7 @@ cd "$root"
 marks="TO""DO|FIX""ME|XX""X|HA""CK"
 
 list_files() {
-    for folder in app examples include lab src tests cmake script docs scenes .ci; do
+    for folder in app examples include lab web src tests cmake script docs scenes .ci; do
         if [ -d "$folder" ]; then
             find "$folder" -type f \( -name '*.[ch]' -o -name '*.cmake' -o -name '*.txt' \
                 -o -name '*.sh' -o -name '*.md' -o -name '*.json' -o -name '*.glsl' \
