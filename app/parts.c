@@ -34,8 +34,6 @@ static const struct {
                   HAS(RLF_HAVE_LIBAV)},
     [PART_PIPEWIRE] = {"PipeWire", RLF_GET_PART("libpipewire-0.3-dev", ALL, "RELIEF_WITH_PIPEWIRE"),
                        HAS(RLF_HAVE_PIPEWIRE)},
-    [PART_MODELS] = {"models", RLF_GET_PART("libassimp-dev", DEFAULT, "RELIEF_WITH_MODELS"),
-                     HAS(RLF_HAVE_ASSIMP)},
     [PART_HULLS] = {"hulls", RLF_GET_PART("libqhull-dev", DEFAULT, "RELIEF_WITH_QHULL"),
                     HAS(RLF_HAVE_QHULL)},
     [PART_MCAP] = {"MCAP", RLF_GET_PART("libzstd-dev liblz4-dev", DEFAULT, "RELIEF_WITH_MCAP"),

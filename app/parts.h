@@ -10,7 +10,6 @@ typedef enum part {
     PART_OPENGL,
     PART_MP4,
     PART_PIPEWIRE,
-    PART_MODELS,
     PART_HULLS,
     PART_MCAP,
     PART_LZ4,

@@ -12,12 +12,9 @@ target_include_directories(relief_fuzz PUBLIC ${PROJECT_SOURCE_DIR}/src
 target_link_libraries(relief_fuzz PUBLIC relief_io relief_sim relief)
 
 set(RELIEF_FUZZ_ITERATIONS 4000 CACHE STRING "Mutations per fuzz test")
-set(fuzz_names address camera_json frame_list layout log matroska oni pcd picture rosbag rvl scene_json)
+set(fuzz_names address camera_json frame_list layout log matroska model oni pcd picture rosbag rvl scene_json)
 if(RELIEF_WITH_MCAP)
   list(APPEND fuzz_names mcap)
-endif()
-if(RELIEF_WITH_MODELS)
-  list(APPEND fuzz_names model)
 endif()
 foreach(name IN LISTS fuzz_names)
   add_executable(fuzz_${name} ${CMAKE_CURRENT_LIST_DIR}/fuzz_${name}.c)
@@ -27,15 +24,10 @@ foreach(name IN LISTS fuzz_names)
   set(iterations ${RELIEF_FUZZ_ITERATIONS})
   if(name STREQUAL "rosbag") # each opens a bag several times
     math(EXPR iterations "${iterations} / 32")
-  elseif(name MATCHES "^(matroska|model)$") # others' readers, ten times as slow
+  elseif(name STREQUAL "matroska") # ten times as slow
     math(EXPR iterations "${iterations} / 2")
   endif()
   add_test(NAME fuzz.${name} COMMAND fuzz_${name} ${iterations}
            WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
   set_tests_properties(fuzz.${name} PROPERTIES LABELS fuzz TIMEOUT 1800)
-  # Assimp itself leaks a few hundred bytes per damaged file: docs/limits.md. Nothing else may.
-  if(name STREQUAL "model")
-    set_tests_properties(fuzz.${name} PROPERTIES ENVIRONMENT
-      "LSAN_OPTIONS=suppressions=${CMAKE_CURRENT_LIST_DIR}/assimp_leaks.txt:print_suppressions=0")
-  endif()
 endforeach()

@@ -1,7 +1,7 @@
 /* glTF and OBJ: any bytes give a model that is sane, or an error line. */
 #include "fuzz.h"
 
-#include "io/model/import.h"
+#include "io/model/model.h"
 #include "model_file.h"
 
 #include <stdarg.h>

@@ -31,7 +31,7 @@ done
 "$root/script/bootstrap" --list | grep -qx libimgui-dev # the panel is in the default window
 "$root/script/bootstrap" --small --list | grep -qx libpng-dev
 "$root/script/bootstrap" --packages --list | grep -qx debhelper
-if "$root/script/bootstrap" --small --list | grep -q 'gl\|av\|assimp\|cmocka\|++'; then
+if "$root/script/bootstrap" --small --list | grep -q 'gl\|av\|cmocka\|++'; then
     echo "scripts: bootstrap --small installs what a window, MP4, models or tests need" >&2
     exit 1
 fi

@@ -138,8 +138,6 @@ static void scenes_give_points(void **state)
                       "vertices", "does not belong", NULL);
 }
 
-#ifdef RLF_HAVE_ASSIMP
-
 /* The hull's corners are the model's; the look puts the model where the hull is. */
 static void a_model_gets_a_hull(void **state)
 {
@@ -186,16 +184,12 @@ static void a_dented_obj_gets_a_hull(void **state)
     rlf_scene_destroy(&scene);
 }
 
-#endif
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(inner_points_are_left_out), cmocka_unit_test(many_vertices_become_few),
         cmocka_unit_test(bad_points_are_refused),    cmocka_unit_test(scenes_give_points),
-#ifdef RLF_HAVE_ASSIMP
         cmocka_unit_test(a_model_gets_a_hull),       cmocka_unit_test(a_dented_obj_gets_a_hull),
-#endif
     };
     return cmocka_run_group_tests(tests, test_folder_make, test_folder_remove);
 }

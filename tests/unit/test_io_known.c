@@ -89,7 +89,6 @@ static void bad_known_objects_are_named(void **state)
     assert_non_null(strstr(rlf_error_text(), "flat.obj"));
 }
 
-#ifdef RLF_HAVE_ASSIMP
 /* A chair of nine boxes, in the box that it is scaled into. */
 static void models_are_read(void **state)
 {
@@ -104,7 +103,6 @@ static void models_are_read(void **state)
     assert_true(scene.known[1].look.model == NULL && scene.known[1].collides);
     rlf_scene_destroy(&scene);
 }
-#endif
 
 static void poses_are_saved_in_a_copy(void **state)
 {
@@ -153,9 +151,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_way_to_place_is_read),
         cmocka_unit_test(bad_known_objects_are_named),
-#ifdef RLF_HAVE_ASSIMP
         cmocka_unit_test(models_are_read),
-#endif
         cmocka_unit_test(poses_are_saved_in_a_copy),
         cmocka_unit_test(a_copy_elsewhere_finds_its_models),
     };

@@ -14,8 +14,6 @@
 #include "io_support.h"
 #include "model_file.h"
 
-#ifdef RLF_HAVE_ASSIMP
-
 static model_text text;
 static char warning[1024];
 static int warning_count;
@@ -201,12 +199,3 @@ int main(void)
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
-
-#else
-
-int main(void)
-{
-    return 77; /* models are not read by this build */
-}
-
-#endif

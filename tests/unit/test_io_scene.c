@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "relief/io.h"
-#include "io/hull/hull.h"
+#include "io/model/model.h"
 #include "io/scene/scene.h"
 #include "io_support.h"
 

@@ -1,6 +1,5 @@
 /* Models by the names of their files, and the hulls around them. */
 #include "relief/io.h"
-#include "io/hull/hull.h"
 #include "io/model/model.h"
 
 #include <string.h>
@@ -31,6 +30,50 @@ io_model_format io_model_format_of(const char *name)
         return IO_MODEL_GLTF;
     }
     return ends_with(name, ".glb") ? IO_MODEL_GLB : IO_MODEL_UNKNOWN;
+}
+
+static rlf_result build(io_model_draft *d, rlf_model **out)
+{
+    rlf_model_def def = rlf_model_def_default();
+    def.name = d->name;
+    def.vertices = d->vertices;
+    def.vertex_count = d->vertex_count;
+    def.triangles = d->triangles;
+    def.triangle_count = d->triangle_count;
+    def.parts = d->parts;
+    def.part_count = d->part_count;
+    def.images = d->images;
+    def.image_count = d->image_count;
+    return rlf_model_create(&def, out);
+}
+
+rlf_result io_model_import(const io_bytes *file, io_model_format format, bool is_alone,
+                           rlf_model **out)
+{
+    *out = NULL;
+    if (file->size == 0) {
+        return rlf_fail(RLF_ERROR_FORMAT, "%s: is empty (0 bytes): export the model again",
+                        file->name);
+    }
+    io_model_draft *d = rlf_alloc(sizeof(*d));
+    if (d == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    d->name = file->name;
+    d->is_alone = is_alone;
+    d->left = IO_MODEL_FILE_MAX;
+    rlf_result result =
+        format == IO_MODEL_OBJ ? io_model_read_obj(d, file) : io_model_read_gltf(d, file);
+    if (result == RLF_OK) {
+        result = build(d, out);
+    }
+    for (int32_t i = 0; i < d->image_count; i++) {
+        rlf_free(d->images[i].data);
+    }
+    rlf_free(d->vertices);
+    rlf_free(d->triangles);
+    rlf_free(d);
+    return result;
 }
 
 rlf_result rlf_model_load(const char *path, rlf_model **out)

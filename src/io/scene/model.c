@@ -1,6 +1,5 @@
 /* Models and hulls of scene.json's bodies. */
 #include "relief/io.h"
-#include "io/hull/hull.h"
 #include "io/model/model.h"
 #include "io/scene/reader.h"
 
@@ -183,7 +182,7 @@ static rlf_result read_hull_file(const io_json_object *body, const io_scene_read
     }
     double scale = fit_hull(out->hull, size);
     io_hull_scale(out->hull, scale);
-    if (facts.has_materials && IO_HAS_MODELS) {
+    if (facts.has_materials) {
         const rlf_model *model = NULL;
         result = find_model(body, reader, path, &model);
         out->look = (rlf_look){model, scale, rlf_scale(facts.centre, -scale)};

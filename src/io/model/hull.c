@@ -1,5 +1,5 @@
 /* Checks that a mesh is a closed convex solid and makes it a hull about its centre of mass. */
-#include "io/hull/hull.h"
+#include "io/model/model.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -7,6 +7,8 @@
 /* Share of the hull's size by which a vertex may stand out of a face's plane: coordinates written
  * with five digits round that much. */
 #define CONVEX_TOLERANCE 1e-4
+
+#define PLACE_MAX_M 100.0 /* of a vertex, on each axis */
 
 typedef struct edge {
     int32_t low, high; /* vertices in order of index */
@@ -212,4 +214,66 @@ rlf_result io_hull_from_mesh(const char *name, const io_mesh *mesh, rlf_hull **o
         *out_centre = centre;
     }
     return *out != NULL ? RLF_OK : RLF_ERROR_MEMORY;
+}
+
+void io_mesh_free(io_mesh *mesh)
+{
+    rlf_free(mesh->vertices);
+    rlf_free(mesh->triangles);
+    memset(mesh, 0, sizeof(*mesh));
+}
+
+/* The places of an OBJ; takes its list of them. */
+static rlf_result take_mesh(const char *name, io_obj *obj, io_mesh *out)
+{
+    if (obj->position_count > IO_HULL_VERTICES_MAX || obj->triangle_count > IO_HULL_TRIANGLES_MAX) {
+        return rlf_fail(RLF_ERROR_FORMAT,
+                        "%s: the hull has more than %d vertices or %d triangles: simplify it", name,
+                        IO_HULL_VERTICES_MAX, IO_HULL_TRIANGLES_MAX);
+    }
+    for (int32_t i = 0; i < obj->position_count; i++) {
+        const rlf_vec3 p = obj->positions[i];
+        if (rlf_max(rlf_max(p.x * p.x, p.y * p.y), p.z * p.z) > PLACE_MAX_M * PLACE_MAX_M) {
+            return rlf_fail(RLF_ERROR_FORMAT,
+                            "%s: vertex %d: a hull's vertices must be in metres, each within 100",
+                            name, (int)i + 1);
+        }
+    }
+    *out = (io_mesh){obj->positions, obj->position_count,
+                     rlf_alloc_array((size_t)obj->triangle_count, 3 * sizeof(out->triangles[0])),
+                     obj->triangle_count};
+    obj->positions = NULL;
+    for (int32_t i = 0; out->triangles != NULL && i < 3 * obj->triangle_count; i++) {
+        out->triangles[i] = obj->corners[i][0];
+    }
+    return out->triangles != NULL ? RLF_OK : RLF_ERROR_MEMORY;
+}
+
+rlf_result io_hull_load(const char *path, rlf_hull **out, io_obj_facts *out_facts)
+{
+    *out = NULL;
+    io_obj_facts facts = {{0, 0, 0}, false};
+    io_buffer buffer = {0};
+    io_bytes file;
+    io_obj obj = {0};
+    io_mesh mesh = {0};
+    rlf_result result =
+        io_file_read(path, IO_MODEL_FILE_MAX, "check the name of the model", &buffer, &file);
+    if (result == RLF_OK) {
+        result = io_obj_parse(&file, &obj);
+    }
+    if (result == RLF_OK) {
+        facts.has_materials = obj.library_count > 0;
+        result = take_mesh(path, &obj, &mesh);
+    }
+    if (result == RLF_OK) {
+        result = io_hull_from_mesh(path, &mesh, out, &facts.centre);
+    }
+    io_mesh_free(&mesh);
+    io_obj_free(&obj);
+    io_buffer_free(&buffer);
+    if (out_facts != NULL) {
+        *out_facts = facts;
+    }
+    return result;
 }
