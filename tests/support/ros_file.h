@@ -4,7 +4,7 @@
 #define RLF_TEST_ROS_FILE_H
 
 #include "bag_file.h"
-#include "io/mcap/ros.h"
+#include "io/ros/messages.h"
 #include "io/mcap/write.h"
 #include "io/ros/camera_info.h"
 #include "io_support.h"

@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "io/mcap/ros.h"
+#include "io/ros/messages.h"
 #include "io/mcap/write.h"
 #include "recording_sample.h"
 

@@ -322,7 +322,7 @@ static void without_camera_info_a_file_beside_serves(void **state)
     rlf_source_destroy(&source);
     test_write_text("clip.json", "{\"depth\": {\"width\": 8, \"height\": 6, \"fx\": 5, \"fy\": 5, "
                                  "\"cx\": 2, \"cy\": 1, \"units_per_metre\": 5000}}");
-    test_expect_error(rlf_open_source(test_path("clip.bag"), NULL, &source), RLF_ERROR_FORMAT,
+    test_expect_error(rlf_open_source(test_path("clip.bag"), NULL, &source), RLF_ERROR_INVALID,
                       "4 x 3", "8 x 6", "camera=FILE");
 }
 

@@ -6,7 +6,7 @@
 #include "io/codec/picture_encode.h"
 #include "io/codec/rvl.h"
 #include "io/mcap/recording_format.h"
-#include "io/mcap/ros.h"
+#include "io/ros/messages.h"
 #include "io/mcap/write.h"
 
 #include <stdio.h>

@@ -51,10 +51,10 @@ io_frame_note *io_mcap_read_notes(io_mcap_reader *reader, io_clip_origin *origin
         c != NULL && origin->has_notes ? rlf_alloc_array((size_t)c->count, sizeof(notes[0])) : NULL;
     int32_t count = 0;
     for (int32_t i = 0; notes != NULL && i < c->count; i++) {
-        io_cdr_span bytes;
+        io_cdr_reader message;
         char text[IO_FRAME_NOTE_TEXT];
-        const bool is_read = io_mcap_read(reader, c->first + i, &bytes) == RLF_OK &&
-                             io_ros_read_string(bytes.data, bytes.size, text, sizeof(text)) &&
+        const bool is_read = io_mcap_read(reader, c->first + i, &message) == RLF_OK &&
+                             io_ros_read_string(message, text, sizeof(text)) &&
                              io_frame_note_parse(text, &notes[count]);
         count += is_read ? 1 : 0;
     }

@@ -127,11 +127,6 @@ const char *io_mcap_strangers(const io_mcap_reader *reader)
     return reader->strangers;
 }
 
-void io_mcap_set_time(io_mcap_reader *reader, int32_t index, int64_t time_ns)
-{
-    ((io_mcap_message *)reader->messages.items)[index].time_ns = time_ns;
-}
-
 static rlf_result fail_message(const io_mcap_reader *reader, const io_mcap_message *m)
 {
     return rlf_fail(RLF_ERROR_FORMAT, "%s: a message of %s at %.3f s is damaged: record it again",
@@ -187,7 +182,7 @@ static rlf_result read_loose(io_mcap_reader *reader, const io_mcap_message *m, i
     return take_message(reader, m, bytes, out);
 }
 
-rlf_result io_mcap_read(io_mcap_reader *reader, int32_t index, io_cdr_span *out)
+static rlf_result read_message(io_mcap_reader *reader, int32_t index, io_cdr_span *out)
 {
     const io_mcap_message *m = io_mcap_message_at(reader, index);
     if (m->chunk < 0) {
@@ -200,4 +195,12 @@ rlf_result io_mcap_read(io_mcap_reader *reader, int32_t index, io_cdr_span *out)
     const io_mcap_cursor bytes = {chunk->buffer.data + m->offset, chunk->size - (size_t)m->offset,
                                   false};
     return take_message(reader, m, bytes, out);
+}
+
+rlf_result io_mcap_read(io_mcap_reader *reader, int32_t index, io_cdr_reader *out)
+{
+    io_cdr_span bytes = {NULL, 0};
+    rlf_result result = read_message(reader, index, &bytes);
+    *out = io_cdr_open(bytes.data, bytes.size);
+    return result;
 }

@@ -3,7 +3,7 @@
 #define RLF_IO_MCAP_READ_H
 
 #include "io/file.h"
-#include "io/mcap/ros.h"
+#include "io/ros/messages.h"
 
 #define IO_MCAP_TOPIC_MAX 256
 #define IO_MCAP_CHANNELS_READ_MAX 512 /* of the types looked for */
@@ -37,11 +37,8 @@ void io_mcap_reader_close(io_mcap_reader **reader);
 int32_t io_mcap_channel_count(const io_mcap_reader *reader);
 const io_mcap_channel *io_mcap_channel_at(const io_mcap_reader *reader, int32_t index);
 const io_mcap_message *io_mcap_message_at(const io_mcap_reader *reader, int32_t index);
-/* Gives message `index` a time of its own; io_mcap_sort brings its channel into order again. */
-void io_mcap_set_time(io_mcap_reader *reader, int32_t index, int64_t time_ns);
-void io_mcap_sort(io_mcap_reader *reader);
 /* Content of a message, valid until the next call. RLF_ERROR_FORMAT when its chunk is damaged. */
-rlf_result io_mcap_read(io_mcap_reader *reader, int32_t index, io_cdr_span *out);
+rlf_result io_mcap_read(io_mcap_reader *reader, int32_t index, io_cdr_reader *out);
 /* Topics of pictures in messages that are not read, as text; "" = none. */
 const char *io_mcap_strangers(const io_mcap_reader *reader);
 /* Value of a key of the Metadata record "relief", or NULL. */

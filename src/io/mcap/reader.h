@@ -65,6 +65,9 @@ rlf_result io_mcap_read_block(const io_mcap_reader *reader, uint64_t offset, uin
 /* -1 = none of that id. */
 int32_t io_mcap_find_channel(const io_mcap_reader *reader, uint16_t id);
 
+/* Brings the messages into order: by channel, then by time. */
+void io_mcap_sort(io_mcap_reader *reader);
+
 /* Records that say what is in the file; others are passed over. `chunk` -1: in the file itself. */
 void io_mcap_take_schema(io_mcap_reader *reader, io_mcap_cursor record);
 void io_mcap_take_channel(io_mcap_reader *reader, io_mcap_cursor record);

@@ -83,6 +83,9 @@ static int compare_entries(const void *a, const void *b)
 {
     const bag_entry *x = a;
     const bag_entry *y = b;
+    if (x->connection != y->connection) {
+        return x->connection < y->connection ? -1 : 1;
+    }
     if (x->time_ns != y->time_ns) {
         return x->time_ns < y->time_ns ? -1 : 1;
     }

@@ -1,333 +1,226 @@
 /* Frames from ROS 1 bags, and from the bags that librealsense records. */
-#include "io/number.h"
-#include "io/picture/picture.h"
-#include "io/pixels/compressed_depth.h"
-#include "io/rosbag/bag_rig.h"
+#include "io/ros/recording.h"
+#include "io/rosbag/bag.h"
 #include "io/source/backends.h"
-#include "io/clip/clip.h"
-#include "io/clip/pairing.h"
 
-#include <stdlib.h>
 #include <string.h>
 
-#define COLOR_GAP_NS 50000000 /* what the clip allows when nothing is said */
-
-/* A picture's entry and its time. */
-typedef struct shot {
-    int64_t time_ns;
-    int32_t entry;
-} shot;
-
-typedef struct stream {
-    shot *pictures;
-    int64_t *times;
-    int32_t count;
-    message_kind kind;
-} stream;
+/* Of what does not change one message is enough; transforms come spread over a few. */
+#define FEW 256
+/* Error of a stereo match, pixels: what Intel's guide for tuning depth cameras calls good. */
+#define MATCH_ERROR_PX 0.08
 
 typedef struct rosbag {
+    io_ros_recording ros; /* the clip's self */
+    char path[IO_PATH_MAX];
     bag *bag;
-    stream depth, color;
-    rlf_rig rig;
-    double units_per_metre;
-    io_rvl rvl;
+    char strangers[512];
 } rosbag;
 
-static rlf_result read_image(rosbag *self, const stream *s, int32_t index, message_image *out)
-{
-    io_bytes message;
-    rlf_result result =
-        bag_message(self->bag, bag_entry_at(self->bag, s->pictures[index].entry), &message);
-    return result == RLF_OK ? message_read_image(&message, s->kind, out) : result;
-}
-
-static rlf_result check_size(const rosbag *self, const io_pixels *p)
-{
-    const rlf_camera *camera = &self->rig.depth;
-    if (p->width == camera->width && p->height == camera->height) {
-        return RLF_OK;
-    }
-    return rlf_fail(RLF_ERROR_FORMAT,
-                    "%s: the depth pictures are %lld x %lld but the calibration is for %d x %d: "
-                    "give the right one with ?camera=FILE",
-                    p->name, (long long)p->width, (long long)p->height, (int)camera->width,
-                    (int)camera->height);
-}
-
-static rlf_result read_depth(void *context, int32_t index, void *out)
-{
-    rosbag *self = context;
-    message_image image;
-    double units = 0.0;
-    rlf_result result = read_image(self, &self->depth, index, &image);
-    if (result != RLF_OK) {
-        return result;
-    }
-    if (image.is_compressed) {
-        return io_compressed_depth_decode(&self->rvl, &image.file, image.encoding,
-                                          self->rig.depth.width, self->rig.depth.height, out,
-                                          &units);
-    }
-    image.pixels.encoding = image.encoding;
-    result = check_size(self, &image.pixels);
-    return result == RLF_OK ? io_pixels_to_depth(&image.pixels, out, &units) : result;
-}
-
-static rlf_result read_color(void *context, int32_t index, const rlf_image_rgba8 *out)
-{
-    rosbag *self = context;
-    message_image image;
-    rlf_result result = read_image(self, &self->color, index, &image);
-    if (result != RLF_OK) {
-        return result;
-    }
-    if (!image.is_compressed) {
-        image.pixels.encoding = image.encoding;
-        return io_pixels_to_rgba(&image.pixels, out);
-    }
-    io_picture picture = {
-        .width = out->width, .height = out->height, .data = out->data, .is_opaque = true};
-    return io_picture_decode(&image.file, &picture);
-}
-
-static void free_stream(stream *s)
-{
-    rlf_free(s->pictures);
-    rlf_free(s->times);
-}
-
-static void rosbag_destroy(void *context)
-{
-    rosbag *self = context;
-    bag_close(&self->bag);
-    free_stream(&self->depth);
-    free_stream(&self->color);
-    rlf_free(self);
-}
-
-static int compare_pictures(const void *a, const void *b)
-{
-    const shot *x = a;
-    const shot *y = b;
-    if (x->time_ns != y->time_ns) {
-        return x->time_ns < y->time_ns ? -1 : 1;
-    }
-    return (x->entry > y->entry) - (x->entry < y->entry);
-}
-
-/* When the camera took the pictures; when they were recorded where that costs too much to find out.
+/* ---- the log ----------------------------------------------------------------------------------
  */
-static bool read_stamps(rosbag *self, stream *s)
+
+static io_ros_channel channel_at(void *self, int32_t index)
 {
-    for (int32_t i = 0; i < s->count; i++) {
-        io_bytes message;
-        int64_t stamp = 0;
-        if (bag_message(self->bag, bag_entry_at(self->bag, s->pictures[i].entry), &message) !=
-                RLF_OK ||
-            !message_read_time(&message, &stamp) || stamp <= 0) {
-            return false;
-        }
-        s->times[i] = stamp;
-    }
-    return true;
+    const bag_connection *c = bag_connection_at(self, index);
+    return (io_ros_channel){c->topic, io_ros1_type_of(c->type), c->first, c->count};
 }
 
-static rlf_result list_pictures(rosbag *self, int32_t connection, stream *s)
+static int64_t time_of(void *self, int32_t message)
 {
-    const bag_connection *c = connection >= 0 ? bag_connection_at(self->bag, connection) : NULL;
-    s->count = 0;
-    s->kind = c != NULL ? message_kind_of(c->type) : MESSAGE_OTHER;
-    const size_t room = c != NULL ? (size_t)c->count : 0;
-    s->pictures = rlf_alloc_array(room, sizeof(s->pictures[0]));
-    s->times = rlf_alloc_array(room, sizeof(s->times[0]));
-    if (s->pictures == NULL || s->times == NULL) {
-        return RLF_ERROR_MEMORY;
-    }
-    for (int32_t i = 0; c != NULL && i < bag_entry_count(self->bag); i++) {
-        const bag_entry *entry = bag_entry_at(self->bag, i);
-        if (entry->connection == connection) {
-            s->pictures[s->count++] = (shot){entry->time_ns, i};
-        }
-    }
-    return RLF_OK;
+    return bag_entry_at(self, message)->time_ns;
 }
 
-/* Stamps of both streams, or of none: the clocks need not agree. */
-static void use_stamps(rosbag *self)
+static rlf_result read_message(void *self, int32_t message, io_cdr_reader *out)
 {
-    if (!bag_is_fast(self->bag) || !read_stamps(self, &self->depth) ||
-        !read_stamps(self, &self->color)) {
-        return;
-    }
-    stream *const streams[2] = {&self->depth, &self->color};
-    for (int k = 0; k < 2; k++) {
-        for (int32_t i = 0; i < streams[k]->count; i++) {
-            streams[k]->pictures[i].time_ns = streams[k]->times[i];
-        }
-    }
-}
-
-static void sort_pictures(stream *s)
-{
-    if (s->count > 0) {
-        qsort(s->pictures, (size_t)s->count, sizeof(s->pictures[0]), compare_pictures);
-    }
-    for (int32_t i = 0; i < s->count; i++) {
-        s->times[i] = s->pictures[i].time_ns;
-    }
-}
-
-static rlf_result list_all(rosbag *self, const bag_topics *topics)
-{
-    const int32_t color = self->rig.has_color ? topics->connections[topics->color] : -1;
-    rlf_result result = list_pictures(self, topics->connections[topics->depth], &self->depth);
-    if (result == RLF_OK) {
-        result = list_pictures(self, color, &self->color);
-    }
-    if (result == RLF_OK) {
-        use_stamps(self);
-        sort_pictures(&self->depth);
-        sort_pictures(&self->color);
-    }
+    io_bytes bytes = {NULL, NULL, 0};
+    rlf_result result = bag_message(self, bag_entry_at(self, message), &bytes);
+    *out = io_ros1_open(bytes.data, bytes.size);
     return result;
 }
 
-/* A calibration that the user gave, or that lies beside the file, may be of other pictures. */
-static rlf_result check_rig(const rosbag *self, const bag_topics *topics)
+/* Marks what bag_index shall list. */
+static void mark(rosbag *b)
 {
-    const io_ros_topic *d = &topics->pictures[topics->depth];
-    const io_pixels depth = {.name = d->name, .width = d->width, .height = d->height};
-    rlf_result result = check_size(self, &depth);
-    if (result != RLF_OK || !self->rig.has_color) {
-        return result;
+    for (int32_t i = 0; i < bag_connection_count(b->bag); i++) {
+        bag_connection *c = bag_connection_at(b->bag, i);
+        switch (io_ros1_type_of(c->type)) {
+        case IO_ROS_IMAGE:
+        case IO_ROS_COMPRESSED_IMAGE: c->limit = INT32_MAX; break;
+        case IO_ROS_CAMERA_INFO: c->limit = 1; break;
+        case IO_ROS_OTHER:
+            if (io_ros_is_stranger(c->type)) {
+                io_ros_add_stranger(b->strangers, sizeof(b->strangers), c->topic, c->type, "");
+            }
+            break;
+        default: c->limit = FEW; break;
+        }
     }
-    const io_ros_topic *c = &topics->pictures[topics->color];
-    const rlf_camera *camera = &self->rig.color;
-    return c->width == camera->width && c->height == camera->height
-               ? RLF_OK
-               : io_picture_fail_size(c->name, c->width, c->height, camera->width, camera->height);
 }
 
-static rlf_result read_gap(const rlf_address *address, int64_t *out_ns)
+static void rosbag_destroy(void *self)
 {
-    const char *text = rlf_address_get(address, "gap");
-    double ms = 0.0;
-    if (text == NULL) {
-        return RLF_OK;
-    }
-    if (!io_number_parse(text, &ms) || !(ms > 0.0 && ms <= 1e6)) {
-        return rlf_fail(RLF_ERROR_INVALID,
-                        "%s: gap=%.40s: give the milliseconds, > 0, by which a colour picture may "
-                        "be away from its depth",
-                        address->source, text);
-    }
-    *out_ns = (int64_t)(ms * 1e6);
-    return RLF_OK;
+    rosbag *b = self;
+    io_ros_recording_free(&b->ros);
+    bag_close(&b->bag);
+    rlf_free(b);
 }
 
-/* A recording whose colour is never near its depth would show none, and not say why. */
-static void warn_unpaired(const char *name, const rosbag *self, int64_t gap_ns)
+/* ---- RealSense: /device_0/sensor_0/Depth_0/image/data and its neighbours -----------------------
+ */
+
+/* How many parts of the path two topics begin with alike. */
+static int32_t common_parts(const char *a, const char *b)
 {
-    int64_t nearest = INT64_MAX;
-    for (int32_t i = 0; i < self->depth.count; i++) {
-        const int64_t time = self->depth.times[i];
-        const int32_t at =
-            io_time_nearest(self->color.times, self->color.count, time, INT64_MAX - 1);
-        const int64_t gap = at >= 0 ? llabs(self->color.times[at] - time) : nearest;
-        nearest = gap < nearest ? gap : nearest;
+    int32_t count = 0;
+    for (; *a != '\0' && *a == *b; a++, b++) {
+        count += a[1] == '/' && b[1] == '/' ? 1 : 0;
     }
-    if (self->color.count > 0 && nearest > gap_ns) {
+    return count;
+}
+
+/* The first message of the first topic that begins as `topic` does, by `parts` parts of its path at
+ * least, and ends in `suffix`. */
+static bool read_beside(const rosbag *b, const char *topic, int32_t parts, const char *suffix,
+                        io_cdr_reader *out)
+{
+    for (int32_t i = 0; i < bag_connection_count(b->bag); i++) {
+        const bag_connection *c = bag_connection_at(b->bag, i);
+        const size_t length = strlen(c->topic);
+        if (length >= strlen(suffix) && strcmp(c->topic + length - strlen(suffix), suffix) == 0 &&
+            common_parts(topic, c->topic) >= parts) {
+            return c->count > 0 && read_message(b->bag, c->first, out) == RLF_OK;
+        }
+    }
+    return false;
+}
+
+/* A stream's transform from the device's reference stream (p_stream = T p_reference). */
+static rlf_pose stream_pose(const rosbag *b, const char *topic)
+{
+    rlf_pose pose = rlf_pose_identity();
+    io_cdr_reader message;
+    if (!read_beside(b, topic, 3, "/tf/0", &message) || !io_ros_read_transform(message, &pose)) {
         rlf_log(RLF_LOG_WARNING,
-                "%s: the colour pictures are %lld ms or more away from the depth, so none is "
-                "shown: ?gap=MS allows more",
-                name, (long long)(nearest / 1000000));
+                "%s: has no transform to the other camera: give one with ?camera=FILE", topic);
+        return rlf_pose_identity();
+    }
+    pose.q = rlf_quat_normalize(pose.q);
+    return pose;
+}
+
+/* The value of an option of the depth sensor; 0 = it has none. */
+static double option(const rosbag *b, const char *topic, const char *suffix)
+{
+    io_cdr_reader message;
+    double value = 0.0;
+    return read_beside(b, topic, 2, suffix, &message) && io_ros_read_float(message, &value) &&
+                   value > 0.0
+               ? value
+               : 0.0;
+}
+
+static double units_of(const rosbag *b, const char *topic)
+{
+    io_ros_image image;
+    if (io_ros_read_picture(&b->ros.log, &b->ros.depth, 0, &image) == RLF_OK &&
+        image.units_per_metre > 0.0) {
+        return image.units_per_metre;
+    }
+    const double metres = option(b, topic, "/Depth Units/value");
+    return metres >= 1e-6 && metres <= 1.0 ? 1.0 / metres : 1000.0;
+}
+
+static void read_realsense(rosbag *b)
+{
+    io_ros_recording *r = &b->ros;
+    const char *depth = r->pictures[r->depth.picture].name;
+    r->units_per_metre = units_of(b, depth);
+    /* sigma = z^2 e / (f b) of a stereo camera; the baseline is in millimetres. */
+    const double baseline = option(b, depth, "/Stereo Baseline/value") / 1000.0;
+    if (baseline > 0.01 && baseline < 1.0 && r->rig.depth.fx > 1.0) {
+        r->rig.noise =
+            (rlf_depth_noise){0.0005, 0.0, MATCH_ERROR_PX / (r->rig.depth.fx * baseline)};
+    }
+    if (r->rig.has_color) {
+        const rlf_pose T_depth_reference = stream_pose(b, depth);
+        const rlf_pose T_color_reference = stream_pose(b, r->pictures[r->color.picture].name);
+        const rlf_pose T_reference_depth = rlf_pose_invert(&T_depth_reference);
+        r->rig.T_color_depth = rlf_pose_mul(&T_color_reference, &T_reference_depth);
     }
 }
 
-static rlf_result open_clip(const rlf_address *address, rosbag *self, const bag_topics *topics,
-                            bool is_aligned, rlf_opened *out)
+static void describe(const rosbag *b, rlf_opened *out)
 {
-    const bool is_float = strncmp(topics->pictures[topics->depth].encoding, "32FC1", 5) == 0;
-    int64_t gap_ns = COLOR_GAP_NS;
-    rlf_result result = read_gap(address, &gap_ns);
-    if (result == RLF_OK) {
-        result = check_rig(self, topics);
-    }
-    if (result != RLF_OK) {
-        return result;
-    }
-    warn_unpaired(address->source, self, gap_ns);
-    const io_clip_def def = {.name = address->place,
-                             .rig = self->rig,
-                             .units_per_metre =
-                                 is_float ? IO_PIXELS_FLOAT_UNITS : self->units_per_metre,
-                             .depth_times = self->depth.times,
-                             .color_times = self->color.times,
-                             .depth_count = self->depth.count,
-                             .color_count = self->color.count,
-                             .color_gap_max_ns = gap_ns,
-                             .flags = is_aligned ? RLF_FRAME_ALIGNED : 0,
-                             .read_depth = read_depth,
-                             .read_color = read_color,
-                             .destroy = rosbag_destroy,
-                             .self = self};
-    return io_clip_open(&def, out);
-}
-
-static rlf_result open_topics(const rlf_address *address, rosbag *self, bag_topics *topics,
-                              rlf_opened *out)
-{
-    bag_rig rig;
-    rlf_result result =
-        io_ros_choose(&topics->lists, rlf_address_get(address, "depth"),
-                      rlf_address_get(address, "color"), &topics->depth, &topics->color);
-    if (result == RLF_OK) {
-        result = bag_rig_read(address, topics, &rig);
-    }
-    if (result != RLF_OK) {
-        return result;
-    }
-    self->rig = rig.rig;
-    self->rig.has_color = rig.rig.has_color && topics->color >= 0;
-    self->units_per_metre = rig.units_per_metre;
-    result = list_all(self, topics);
-    if (result == RLF_OK) {
-        result = open_clip(address, self, topics, rig.is_aligned, out);
-    }
-    if (result == RLF_OK) {
-        memcpy(out->info.device, rig.device, sizeof(out->info.device));
-    }
-    return result;
-}
-
-static rlf_result open_all(const rlf_address *address, rosbag *self, rlf_opened *out)
-{
-    rlf_result result = bag_open(address->place, &self->bag);
-    if (result == RLF_OK) {
-        bag_topics_mark(self->bag);
-        result = bag_index(self->bag);
-    }
-    if (result == RLF_OK) {
-        bag_topics topics;
-        result = bag_topics_read(self->bag, address->place, &topics);
-        if (result == RLF_OK) {
-            result = open_topics(address, self, &topics, out);
+    char name[64] = "ROS 1 bag", serial[48] = "";
+    for (int32_t i = 0; i < bag_connection_count(b->bag); i++) {
+        const io_ros_channel c = channel_at(b->bag, i);
+        for (int32_t m = 0;
+             m < c.count && c.type == IO_ROS_KEY_VALUE && strcmp(c.topic, "/device_0/info") == 0;
+             m++) {
+            io_cdr_reader message;
+            if (read_message(b->bag, c.first + m, &message) == RLF_OK) {
+                io_ros_read_value(message, "Name", name, sizeof(name));
+                io_ros_read_value(message, "Serial Number", serial, sizeof(serial));
+            }
         }
-        bag_topics_free(&topics);
+    }
+    const char *depth = b->ros.pictures[b->ros.depth.picture].name;
+    snprintf(out->info.device, sizeof(out->info.device), "%s, %s%.90s", name,
+             serial[0] != '\0' ? "serial number " : "", serial[0] != '\0' ? serial : depth);
+}
+
+/* ---- opening ----------------------------------------------------------------------------------
+ */
+
+static rlf_result open_recording(const rlf_address *address, rosbag *b, rlf_opened *out)
+{
+    b->ros.log = (io_ros_log){.name = b->path,
+                              .is_ros1 = true,
+                              .strangers = b->strangers,
+                              .channel_count = bag_connection_count(b->bag),
+                              .self = b->bag,
+                              .channel = channel_at,
+                              .time = time_of,
+                              .read = read_message};
+    for (int32_t i = 0; i < b->ros.log.channel_count; i++) {
+        b->ros.log.has_own_poses |=
+            strncmp(bag_connection_at(b->bag, i)->topic, "/device_", 8) == 0;
+    }
+    io_clip_def def = {.destroy = rosbag_destroy, .self = b};
+    rlf_result result = io_ros_prepare(&b->ros, address);
+    if (result == RLF_OK && b->ros.log.has_own_poses && !b->ros.has_given_rig) {
+        read_realsense(b);
+    }
+    if (result == RLF_OK) {
+        result = io_ros_list_pictures(&b->ros, bag_is_fast(b->bag));
+    }
+    if (result == RLF_OK) {
+        result = io_ros_open_clip(&b->ros, address, &def, out);
+    }
+    if (result == RLF_OK) {
+        describe(b, out);
     }
     return result;
 }
 
 static rlf_result rosbag_open(const rlf_address *address, rlf_opened *out)
 {
-    rosbag *self = rlf_alloc(sizeof(*self));
-    if (self == NULL) {
+    rosbag *b = rlf_alloc(sizeof(*b));
+    if (b == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    io_rvl_init(&self->rvl);
-    rlf_result result = open_all(address, self, out);
+    snprintf(b->path, sizeof(b->path), "%s", address->place);
+    rlf_result result = bag_open(b->path, &b->bag);
+    if (result == RLF_OK) {
+        mark(b);
+        result = bag_index(b->bag);
+    }
+    if (result == RLF_OK) {
+        result = open_recording(address, b, out);
+    }
     if (result != RLF_OK) {
-        rosbag_destroy(self);
+        rosbag_destroy(b);
     }
     return result;
 }

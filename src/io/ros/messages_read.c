@@ -1,26 +1,37 @@
-/* ROS 2 messages: from CDR to values. The bytes may be anything. */
-#include "io/mcap/ros.h"
+/* Messages of ROS 1 and 2 to values. The bytes may be anything. */
+#include "io/ros/messages.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 #define NS_PER_S INT64_C(1000000000)
 
+static int64_t get_stamp(io_cdr_reader *r)
+{
+    if (r->is_ros1) {
+        io_cdr_get_u32(r); /* counts up */
+    }
+    const uint32_t bits = io_cdr_get_u32(r);
+    const int64_t seconds = r->is_ros1 ? (int64_t)bits : (int32_t)bits;
+    const uint32_t nanoseconds = io_cdr_get_u32(r);
+    return seconds * NS_PER_S + nanoseconds;
+}
+
 static void get_header(io_cdr_reader *r, io_ros_header *out)
 {
-    const int32_t seconds = (int32_t)io_cdr_get_u32(r);
-    const uint32_t nanoseconds = io_cdr_get_u32(r);
-    out->stamp_ns = seconds * NS_PER_S + nanoseconds;
+    out->stamp_ns = get_stamp(r);
     io_cdr_get_text(r, out->frame_id, sizeof(out->frame_id));
 }
 
-bool io_ros_read_header(const uint8_t *data, size_t size, io_ros_header *out)
+bool io_ros_read_stamp(io_cdr_reader r, int64_t *out_ns)
 {
-    io_cdr_reader r = io_cdr_open(data, size);
-    get_header(&r, out);
+    *out_ns = get_stamp(&r);
     return !r.is_bad;
 }
 
-bool io_ros_read_image(const uint8_t *data, size_t size, io_ros_image *out)
+bool io_ros_read_image(io_cdr_reader r, io_ros_image *out)
 {
-    io_cdr_reader r = io_cdr_open(data, size);
     get_header(&r, &out->header);
     out->height = io_cdr_get_u32(&r);
     out->width = io_cdr_get_u32(&r);
@@ -28,12 +39,18 @@ bool io_ros_read_image(const uint8_t *data, size_t size, io_ros_image *out)
     out->is_bigendian = io_cdr_get_u8(&r) != 0;
     out->step = io_cdr_get_u32(&r);
     out->data = io_cdr_get_bytes(&r);
-    return !r.is_bad;
+    out->units_per_metre = 0.0;
+    const bool is_good = !r.is_bad;
+    /* librealsense appends metres per count, and marks that in the header. */
+    if (r.is_ros1 && is_good && strcmp(out->header.frame_id, "1") == 0) {
+        const double metres = (double)io_cdr_get_float(&r);
+        out->units_per_metre = !r.is_bad && metres >= 1e-6 && metres <= 1.0 ? 1.0 / metres : 0.0;
+    }
+    return is_good;
 }
 
-bool io_ros_read_compressed(const uint8_t *data, size_t size, io_ros_image *out)
+bool io_ros_read_compressed(io_cdr_reader r, io_ros_image *out)
 {
-    io_cdr_reader r = io_cdr_open(data, size);
     get_header(&r, &out->header);
     io_cdr_get_text(&r, out->encoding, sizeof(out->encoding));
     out->data = io_cdr_get_bytes(&r);
@@ -41,6 +58,7 @@ bool io_ros_read_compressed(const uint8_t *data, size_t size, io_ros_image *out)
     out->height = 0;
     out->step = 0;
     out->is_bigendian = false;
+    out->units_per_metre = 0.0;
     return !r.is_bad;
 }
 
@@ -56,9 +74,8 @@ static io_camera_window get_window(io_cdr_reader *r)
     return w;
 }
 
-bool io_ros_read_camera_info(const uint8_t *data, size_t size, io_camera_info *out)
+bool io_ros_read_camera_info(io_cdr_reader r, io_camera_info *out)
 {
-    io_cdr_reader r = io_cdr_open(data, size);
     io_ros_header header;
     memset(out, 0, sizeof(*out));
     get_header(&r, &header);
@@ -88,10 +105,8 @@ static rlf_pose get_pose(io_cdr_reader *r)
     return (rlf_pose){.p = {n[0], n[1], n[2]}, .q = {n[3], n[4], n[5], n[6]}};
 }
 
-bool io_ros_read_tf(const uint8_t *data, size_t size, io_ros_transform *out, uint32_t capacity,
-                    uint32_t *out_count)
+bool io_ros_read_tf(io_cdr_reader r, io_ros_transform *out, uint32_t capacity, uint32_t *out_count)
 {
-    io_cdr_reader r = io_cdr_open(data, size);
     const uint32_t count = io_cdr_get_u32(&r);
     *out_count = 0;
     for (uint32_t i = 0; i < count && i < capacity && !r.is_bad; i++) {
@@ -106,17 +121,46 @@ bool io_ros_read_tf(const uint8_t *data, size_t size, io_ros_transform *out, uin
     return !r.is_bad;
 }
 
-bool io_ros_read_pose(const uint8_t *data, size_t size, io_ros_header *header, rlf_pose *out)
+bool io_ros_read_pose(io_cdr_reader r, io_ros_header *header, rlf_pose *out)
 {
-    io_cdr_reader r = io_cdr_open(data, size);
     get_header(&r, header);
     *out = get_pose(&r);
     return !r.is_bad;
 }
 
-bool io_ros_read_string(const uint8_t *data, size_t size, char *out, size_t capacity)
+bool io_ros_read_string(io_cdr_reader r, char *out, size_t capacity)
 {
-    io_cdr_reader r = io_cdr_open(data, size);
     io_cdr_get_text(&r, out, capacity);
     return !r.is_bad;
+}
+
+bool io_ros_read_transform(io_cdr_reader r, rlf_pose *out)
+{
+    *out = get_pose(&r);
+    return !r.is_bad && io_ros_is_pose(out);
+}
+
+bool io_ros_is_pose(const rlf_pose *pose)
+{
+    const rlf_quat q = pose->q;
+    const double square = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+    return square > 0.99 && square < 1.01 && rlf_vec3_is_finite(pose->p);
+}
+
+bool io_ros_read_float(io_cdr_reader r, double *out)
+{
+    *out = (double)io_cdr_get_float(&r);
+    return !r.is_bad && isfinite(*out);
+}
+
+bool io_ros_read_value(io_cdr_reader r, const char *key, char *out, size_t capacity)
+{
+    char name[64], value[128];
+    io_cdr_get_text(&r, name, sizeof(name));
+    io_cdr_get_text(&r, value, sizeof(value));
+    if (r.is_bad || strcmp(name, key) != 0) {
+        return false;
+    }
+    snprintf(out, capacity, "%s", value);
+    return true;
 }

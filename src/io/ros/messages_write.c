@@ -1,5 +1,5 @@
 /* ROS 2 messages: from values to CDR. */
-#include "io/mcap/ros.h"
+#include "io/ros/messages.h"
 
 #define NS_PER_S INT64_C(1000000000)
 

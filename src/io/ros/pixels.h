@@ -1,10 +1,10 @@
 /* Pictures in ROS messages: what they are, and their pixels. */
-#ifndef RLF_IO_MCAP_PIXELS_H
-#define RLF_IO_MCAP_PIXELS_H
+#ifndef RLF_IO_ROS_PIXELS_H
+#define RLF_IO_ROS_PIXELS_H
 
 #include "io/codec/rvl.h"
 #include "io/file.h"
-#include "io/mcap/ros.h"
+#include "io/ros/messages.h"
 #include "relief/image.h"
 
 typedef enum io_ros_pixels {
@@ -33,11 +33,13 @@ bool io_ros_picture_size(const io_ros_image *image, io_ros_pixels pixels, int32_
 /* Work memory for decoding. */
 typedef struct io_ros_decoder {
     io_rvl rvl;
-    const char *name; /* for error lines */
-    uint16_t *counts; /* of inverse depth: width x height; NULL = never needed */
+    const char *name;   /* for error lines */
+    bool rounds_metres; /* to counts of IO_PIXELS_FLOAT_UNITS */
+    uint16_t *counts;   /* of inverse depth: width x height; NULL = never needed */
 } io_ros_decoder;
 
-/* Depth as uint16_t or float, width x height without padding. */
+/* Depth as uint16_t or float, width x height without padding. Metres come as float unless the
+ * decoder rounds them. */
 rlf_result io_ros_decode_depth(const io_ros_decoder *decoder, const io_ros_image *image,
                                io_ros_pixels pixels, int32_t width, int32_t height, void *out);
 rlf_result io_ros_decode_color(const io_ros_decoder *decoder, const io_ros_image *image,

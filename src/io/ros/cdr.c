@@ -1,5 +1,5 @@
 /* Common Data Representation. */
-#include "io/mcap/cdr.h"
+#include "io/ros/cdr.h"
 #include "io/little.h"
 
 #define HEAD 4
@@ -66,6 +66,11 @@ void io_cdr_end_bytes(io_cdr_writer *w, size_t begin)
 /* ---- reading ----------------------------------------------------------------------------------
  */
 
+io_cdr_reader io_ros1_open(const uint8_t *data, size_t size)
+{
+    return (io_cdr_reader){.data = data, .size = size, .align_max = 1, .is_ros1 = true};
+}
+
 io_cdr_reader io_cdr_open(const uint8_t *data, size_t size)
 {
     io_cdr_reader r = {.align_max = 8, .is_bad = true};
@@ -116,6 +121,13 @@ uint32_t io_cdr_get_u32(io_cdr_reader *r)
     return value;
 }
 
+float io_cdr_get_float(io_cdr_reader *r)
+{
+    float value;
+    take_number(r, &value, sizeof(value));
+    return value;
+}
+
 void io_cdr_get_doubles(io_cdr_reader *r, double *out, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -126,7 +138,8 @@ void io_cdr_get_doubles(io_cdr_reader *r, double *out, size_t count)
 void io_cdr_get_text(io_cdr_reader *r, char *out, size_t size)
 {
     const io_cdr_span text = io_cdr_get_bytes(r);
-    const size_t whole = text.size > 0 ? text.size - 1 : 0; /* without its ending zero */
+    const size_t zero = r->is_ros1 || text.size == 0 ? 0 : 1;
+    const size_t whole = text.size - zero;
     const size_t length = whole < size - 1 ? whole : size - 1;
     if (length > 0) {
         memcpy(out, text.data, length);

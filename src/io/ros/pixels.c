@@ -1,5 +1,5 @@
 /* Pictures in ROS messages. */
-#include "io/mcap/pixels.h"
+#include "io/ros/pixels.h"
 
 #include "io/picture/picture.h"
 #include "io/pixels/compressed_depth.h"
@@ -95,34 +95,25 @@ static const uint8_t *raw_rows(const io_ros_image *image, int32_t width, int32_t
     return is_whole ? image->data.data : NULL;
 }
 
-static rlf_result decode_raw_depth(const char *name, const io_ros_image *image, size_t bytes,
-                                   int32_t width, int32_t height, void *out)
+/* Rows without a gap, numbers of this machine. */
+static rlf_result decode_metres(const char *name, const io_ros_image *image, int32_t width,
+                                int32_t height, float *out)
 {
     size_t step;
-    const uint8_t *rows = raw_rows(image, width, height, bytes, &step);
+    const uint8_t *rows = raw_rows(image, width, height, sizeof(*out), &step);
     if (rows == NULL) {
         return fail_size(name, image, width, height);
     }
-    const size_t row = (size_t)width * bytes;
     for (int32_t y = 0; y < height; y++) {
-        uint8_t *to = (uint8_t *)out + (size_t)y * row;
-        memcpy(to, rows + (size_t)y * step, row);
-        for (size_t i = 0; image->is_bigendian != IO_IS_BIG_ENDIAN && i < row; i += bytes) {
-            for (size_t b = 0; b < bytes / 2; b++) {
-                const uint8_t byte = to[i + b];
-                to[i + b] = to[i + bytes - 1 - b];
-                to[i + bytes - 1 - b] = byte;
+        for (int32_t x = 0; x < width; x++) {
+            const uint8_t *from = rows + (size_t)y * step + (size_t)x * sizeof(*out);
+            uint8_t *to = (uint8_t *)(out + (ptrdiff_t)y * width + x);
+            for (size_t b = 0; b < sizeof(*out); b++) {
+                to[b] = from[image->is_bigendian != IO_IS_BIG_ENDIAN ? sizeof(*out) - 1 - b : b];
             }
         }
     }
     return RLF_OK;
-}
-
-static rlf_result decode_counts(const io_ros_decoder *decoder, const io_ros_image *image,
-                                int32_t width, int32_t height, uint16_t *out)
-{
-    const io_bytes file = {decoder->name, image->data.data, image->data.size};
-    return io_compressed_depth_counts(&decoder->rvl, &file, image->encoding, width, height, out);
 }
 
 /* depth = a / (count - b) */
@@ -135,7 +126,9 @@ static rlf_result decode_inverse(const io_ros_decoder *decoder, const io_ros_ima
     }
     memcpy(parameters, image->data.data + 4, sizeof(parameters));
     io_little(parameters, 2, sizeof(parameters[0]));
-    rlf_result result = decode_counts(decoder, image, width, height, decoder->counts);
+    const io_bytes file = {decoder->name, image->data.data, image->data.size};
+    rlf_result result = io_compressed_depth_counts(&decoder->rvl, &file, image->encoding, width,
+                                                   height, decoder->counts);
     for (size_t i = 0; result == RLF_OK && i < (size_t)width * (size_t)height; i++) {
         const uint16_t count = decoder->counts[i];
         out[i] = count > 0 ? parameters[0] / ((float)count - parameters[1]) : 0.0f;
@@ -143,15 +136,42 @@ static rlf_result decode_inverse(const io_ros_decoder *decoder, const io_ros_ima
     return result;
 }
 
+static io_pixels raw_of(const io_ros_decoder *decoder, const io_ros_image *image)
+{
+    return (io_pixels){.name = decoder->name,
+                       .encoding = image->encoding,
+                       .width = image->width,
+                       .height = image->height,
+                       .step = image->step,
+                       .is_bigendian = image->is_bigendian,
+                       .data = image->data.data,
+                       .size = image->data.size};
+}
+
+static rlf_result decode_rounded(const io_ros_decoder *decoder, const io_ros_image *image,
+                                 bool is_raw, int32_t width, int32_t height, uint16_t *out)
+{
+    const io_pixels raw = raw_of(decoder, image);
+    const io_bytes file = {decoder->name, image->data.data, image->data.size};
+    double units;
+    if (!is_raw) {
+        return io_compressed_depth_decode(&decoder->rvl, &file, image->encoding, width, height, out,
+                                          &units);
+    }
+    return raw.width == width && raw.height == height
+               ? io_pixels_to_depth(&raw, out, &units)
+               : fail_size(decoder->name, image, width, height);
+}
+
 rlf_result io_ros_decode_depth(const io_ros_decoder *decoder, const io_ros_image *image,
                                io_ros_pixels pixels, int32_t width, int32_t height, void *out)
 {
-    if (pixels == IO_ROS_DEPTH_U16 || pixels == IO_ROS_DEPTH_F32) {
-        return decode_raw_depth(decoder->name, image, pixels == IO_ROS_DEPTH_U16 ? 2 : 4, width,
-                                height, out);
+    const bool is_raw = pixels == IO_ROS_DEPTH_U16 || pixels == IO_ROS_DEPTH_F32;
+    if (!io_ros_is_metres(pixels) || decoder->rounds_metres) {
+        return decode_rounded(decoder, image, is_raw, width, height, out);
     }
-    return io_ros_is_metres(pixels) ? decode_inverse(decoder, image, width, height, out)
-                                    : decode_counts(decoder, image, width, height, out);
+    return is_raw ? decode_metres(decoder->name, image, width, height, out)
+                  : decode_inverse(decoder, image, width, height, out);
 }
 
 rlf_result io_ros_decode_color(const io_ros_decoder *decoder, const io_ros_image *image,
@@ -163,13 +183,6 @@ rlf_result io_ros_decode_color(const io_ros_decoder *decoder, const io_ros_image
             .width = out->width, .height = out->height, .data = out->data, .is_opaque = true};
         return io_picture_decode(&file, &picture);
     }
-    const io_pixels raw = {.name = decoder->name,
-                           .encoding = image->encoding,
-                           .width = image->width,
-                           .height = image->height,
-                           .step = image->step,
-                           .is_bigendian = image->is_bigendian,
-                           .data = image->data.data,
-                           .size = image->data.size};
+    const io_pixels raw = raw_of(decoder, image);
     return io_pixels_to_rgba(&raw, out);
 }

@@ -1,5 +1,5 @@
 /* The message definitions that go into a file. */
-#include "io/mcap/ros.h"
+#include "io/ros/messages.h"
 
 #define RULE "================================================================================\n"
 #define HEADER                                                                                     \
@@ -40,6 +40,27 @@ static const struct {
                              "float64 z\n" QUATERNION},
     [IO_ROS_STRING] = {"std_msgs/msg/String", "string data\n"},
 };
+
+io_ros_type io_ros1_type_of(const char *name)
+{
+    static const struct {
+        const char *name;
+        io_ros_type type;
+    } names[] = {{"sensor_msgs/Image", IO_ROS_IMAGE},
+                 {"sensor_msgs/CompressedImage", IO_ROS_COMPRESSED_IMAGE},
+                 {"sensor_msgs/CameraInfo", IO_ROS_CAMERA_INFO},
+                 {"tf2_msgs/TFMessage", IO_ROS_TF},
+                 {"tf/tfMessage", IO_ROS_TF},
+                 {"geometry_msgs/Transform", IO_ROS_TRANSFORM},
+                 {"std_msgs/Float32", IO_ROS_FLOAT},
+                 {"diagnostic_msgs/KeyValue", IO_ROS_KEY_VALUE}};
+    for (size_t i = 0; i < sizeof(names) / sizeof(names[0]); i++) {
+        if (strcmp(names[i].name, name) == 0) {
+            return names[i].type;
+        }
+    }
+    return IO_ROS_OTHER;
+}
 
 const char *io_ros_type_name(io_ros_type type)
 {

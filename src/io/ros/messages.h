@@ -1,0 +1,83 @@
+/* The messages of ROS that a recording has: read as ROS 1 and ROS 2 serialise them, and written as
+ * ROS 2, with the text of their types. */
+#ifndef RLF_IO_ROS_MESSAGES_H
+#define RLF_IO_ROS_MESSAGES_H
+
+#include "io/ros/cdr.h"
+#include "io/ros/camera_info.h"
+#include "relief/frame.h"
+
+typedef enum io_ros_type {
+    IO_ROS_OTHER = 0,
+    IO_ROS_IMAGE,
+    IO_ROS_COMPRESSED_IMAGE,
+    IO_ROS_CAMERA_INFO,
+    IO_ROS_TF,
+    IO_ROS_POSE_STAMPED,
+    IO_ROS_STRING,
+    IO_ROS_TYPE_COUNT,
+    /* Of RealSense's bags alone. */
+    IO_ROS_TRANSFORM,
+    IO_ROS_FLOAT,
+    IO_ROS_KEY_VALUE
+} io_ros_type;
+
+/* "sensor_msgs/msg/Image" and so on: of those before IO_ROS_TYPE_COUNT; NULL for IO_ROS_OTHER. */
+const char *io_ros_type_name(io_ros_type type);
+/* The message definition with those it consists of, as the "ros2msg" encoding wants it. */
+const char *io_ros_type_text(io_ros_type type);
+
+/* By the name that ROS 1 has for it. */
+io_ros_type io_ros1_type_of(const char *name);
+
+typedef struct io_ros_header {
+    int64_t stamp_ns;
+    char frame_id[IO_ROS_NAME_MAX];
+} io_ros_header;
+
+/* sensor_msgs/Image and, with width 0, sensor_msgs/CompressedImage. */
+typedef struct io_ros_image {
+    io_ros_header header;
+    uint32_t width, height, step;
+    char encoding[64]; /* or format */
+    bool is_bigendian;
+    io_cdr_span data;
+    double units_per_metre; /* RealSense 2.50 and later say them; 0 = not said */
+} io_ros_image;
+
+/* p_parent = T p_child */
+typedef struct io_ros_transform {
+    int64_t stamp_ns;
+    char parent[IO_ROS_NAME_MAX], child[IO_ROS_NAME_MAX];
+    rlf_pose T_parent_child;
+} io_ros_transform;
+
+/* Whether it is a rotation, nearly of unit length, with a place. */
+bool io_ros_is_pose(const rlf_pose *pose);
+
+/* All return false for bytes that are no such message; io_cdr_open and io_ros1_open give readers.
+ */
+/* Of a message that begins with a header. */
+bool io_ros_read_stamp(io_cdr_reader r, int64_t *out_ns);
+bool io_ros_read_image(io_cdr_reader r, io_ros_image *out);
+bool io_ros_read_compressed(io_cdr_reader r, io_ros_image *out);
+bool io_ros_read_camera_info(io_cdr_reader r, io_camera_info *out);
+/* At most `capacity`; *out_count says how many. */
+bool io_ros_read_tf(io_cdr_reader r, io_ros_transform *out, uint32_t capacity, uint32_t *out_count);
+/* std_msgs/String; what has no room in `out` is cut. */
+bool io_ros_read_string(io_cdr_reader r, char *out, size_t capacity);
+bool io_ros_read_transform(io_cdr_reader r, rlf_pose *out); /* geometry_msgs/Transform */
+bool io_ros_read_float(io_cdr_reader r, double *out);
+/* Copies the value of a diagnostic_msgs/KeyValue; false when it has another key. */
+bool io_ros_read_value(io_cdr_reader r, const char *key, char *out, size_t capacity);
+bool io_ros_read_pose(io_cdr_reader r, io_ros_header *header, rlf_pose *out);
+
+/* A message up to its bytes; they follow, then io_cdr_end_bytes with what this returns. */
+size_t io_ros_begin_image(io_cdr_writer *w, const io_ros_image *image);
+size_t io_ros_begin_compressed(io_cdr_writer *w, const io_ros_image *image);
+void io_ros_write_camera_info(io_cdr_writer *w, const io_ros_header *header,
+                              const rlf_camera *camera);
+void io_ros_write_tf(io_cdr_writer *w, const io_ros_transform *transforms, uint32_t count);
+void io_ros_write_pose(io_cdr_writer *w, const io_ros_header *header, const rlf_pose *pose);
+
+#endif

@@ -1,0 +1,229 @@
+/* A ROS recording as a source: its two streams in the order in which the camera took them. */
+#include "io/ros/recording.h"
+#include "io/clip/pairing.h"
+#include "io/number.h"
+#include "io/pixels/pixels.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* A picture's number in its topic, and its time. */
+struct io_ros_shot {
+    int64_t time_ns;
+    int32_t index;
+};
+
+/* ---- pictures ------------------------------------------------------------------------------- */
+
+static rlf_result read_depth(void *self, int32_t index, void *out)
+{
+    io_ros_recording *r = self;
+    const io_ros_stream *s = &r->depth;
+    io_ros_image image;
+    rlf_result result = io_ros_read_picture(&r->log, s, s->shots[index].index, &image);
+    return result == RLF_OK ? io_ros_decode_depth(&r->decoder, &image, s->pixels,
+                                                  r->rig.depth.width, r->rig.depth.height, out)
+                            : result;
+}
+
+static rlf_result read_color(void *self, int32_t index, const rlf_image_rgba8 *out)
+{
+    io_ros_recording *r = self;
+    const io_ros_stream *s = &r->color;
+    io_ros_image image;
+    rlf_result result = io_ros_read_picture(&r->log, s, s->shots[index].index, &image);
+    return result == RLF_OK ? io_ros_decode_color(&r->decoder, &image, s->pixels, out) : result;
+}
+
+void io_ros_recording_free(io_ros_recording *r)
+{
+    rlf_free(r->streams);
+    rlf_free(r->pictures);
+    rlf_free(r->infos);
+    rlf_free(r->transforms);
+    rlf_free(r->depth.shots);
+    rlf_free(r->depth.times);
+    rlf_free(r->color.shots);
+    rlf_free(r->color.times);
+    rlf_free(r->decoder.counts);
+}
+
+/* ---- opening -------------------------------------------------------------------------------- */
+
+rlf_result io_ros_prepare(io_ros_recording *r, const rlf_address *address)
+{
+    rlf_result result = io_ros_list_topics(r);
+    int32_t depth = -1, color = -1;
+    if (result == RLF_OK) {
+        result = io_ros_choose(&r->lists, rlf_address_get(address, "depth"),
+                               rlf_address_get(address, "color"), &depth, &color);
+    }
+    if (result != RLF_OK) {
+        return result;
+    }
+    r->depth = r->streams[depth];
+    r->depth.picture = depth;
+    r->color = color >= 0 ? r->streams[color] : (io_ros_stream){.channel = -1};
+    r->color.picture = color;
+    io_rvl_init(&r->decoder.rvl);
+    r->decoder.name = r->log.name;
+    r->decoder.rounds_metres = r->log.is_ros1;
+    return io_ros_read_rig(r, address);
+}
+
+/* ---- times ---------------------------------------------------------------------------------- */
+
+static rlf_result list_shots(const io_ros_log *log, io_ros_stream *s)
+{
+    const io_ros_channel channel =
+        s->channel >= 0 ? log->channel(log->self, s->channel) : (io_ros_channel){.count = 0};
+    s->count = channel.count;
+    s->shots = rlf_alloc_array((size_t)s->count, sizeof(s->shots[0]));
+    s->times = rlf_alloc_array((size_t)s->count, sizeof(s->times[0]));
+    if (s->shots == NULL || s->times == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    for (int32_t i = 0; i < s->count; i++) {
+        s->shots[i] = (io_ros_shot){log->time(log->self, channel.first + i), i};
+        s->times[i] = s->shots[i].time_ns;
+    }
+    return RLF_OK;
+}
+
+/* False when the message has no time of its own. */
+static bool use_stamp(const io_ros_log *log, io_ros_stream *s, int32_t index)
+{
+    io_cdr_reader message;
+    int64_t stamp_ns = 0;
+    const bool is_good = log->read(log->self, log->channel(log->self, s->channel).first + index,
+                                   &message) == RLF_OK &&
+                         io_ros_read_stamp(message, &stamp_ns) && stamp_ns > 0;
+    s->shots[index].time_ns = is_good ? stamp_ns : s->shots[index].time_ns;
+    return is_good;
+}
+
+/* Times in the log are those of the messages' arrival; pictures belong together by when they were
+ * taken. Both streams in step, so that each chunk is read once. ROS 1 lets the clocks of log and
+ * camera differ: there all pictures have stamps, or none does. */
+static void use_stamps(io_ros_recording *r)
+{
+    io_ros_stream *const streams[2] = {&r->depth, &r->color};
+    int32_t at[2] = {0, 0};
+    bool is_good = true;
+    while ((at[0] < r->depth.count || at[1] < r->color.count) && (is_good || !r->log.is_ros1)) {
+        const bool is_color =
+            at[0] == r->depth.count ||
+            (at[1] < r->color.count && r->color.times[at[1]] < r->depth.times[at[0]]);
+        is_good = use_stamp(&r->log, streams[is_color], at[is_color]) && is_good;
+        at[is_color]++;
+    }
+    for (int k = 0; k < 2 && r->log.is_ros1 && !is_good; k++) {
+        for (int32_t i = 0; i < streams[k]->count; i++) {
+            streams[k]->shots[i].time_ns = streams[k]->times[i];
+        }
+    }
+}
+
+static int compare_shots(const void *a, const void *b)
+{
+    const io_ros_shot *x = a;
+    const io_ros_shot *y = b;
+    if (x->time_ns != y->time_ns) {
+        return x->time_ns < y->time_ns ? -1 : 1;
+    }
+    return (x->index > y->index) - (x->index < y->index);
+}
+
+static void sort_shots(io_ros_stream *s)
+{
+    if (s->count > 0) {
+        qsort(s->shots, (size_t)s->count, sizeof(s->shots[0]), compare_shots);
+    }
+    for (int32_t i = 0; i < s->count; i++) {
+        s->times[i] = s->shots[i].time_ns;
+    }
+}
+
+rlf_result io_ros_list_pictures(io_ros_recording *r, bool has_stamps)
+{
+    r->color.channel = r->rig.has_color ? r->color.channel : -1;
+    rlf_result result = list_shots(&r->log, &r->depth);
+    if (result == RLF_OK) {
+        result = list_shots(&r->log, &r->color);
+    }
+    if (result == RLF_OK && has_stamps) {
+        use_stamps(r);
+        sort_shots(&r->depth);
+        sort_shots(&r->color);
+    }
+    return result;
+}
+
+/* ---- the clip ------------------------------------------------------------------------------- */
+
+static rlf_result read_gap(const rlf_address *address, int64_t *out_ns)
+{
+    const char *text = rlf_address_get(address, "gap");
+    double ms = 0.0;
+    if (text == NULL) {
+        return RLF_OK;
+    }
+    if (!io_number_parse(text, &ms) || !(ms > 0.0 && ms <= 10000.0)) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "%s: gap=%.40s: give milliseconds, more than 0 and at most 10000",
+                        address->source, text);
+    }
+    *out_ns = (int64_t)(ms * 1e6);
+    return RLF_OK;
+}
+
+/* A recording whose colour is never near its depth would show none, and not say why. */
+static void warn_unpaired(const io_ros_recording *r, int64_t gap_ns)
+{
+    int64_t nearest = INT64_MAX;
+    for (int32_t i = 0; i < r->depth.count; i++) {
+        const int64_t time = r->depth.times[i];
+        const int32_t at = io_time_nearest(r->color.times, r->color.count, time, INT64_MAX - 1);
+        const int64_t gap = at >= 0 ? llabs(r->color.times[at] - time) : nearest;
+        nearest = gap < nearest ? gap : nearest;
+    }
+    if (r->color.count > 0 && nearest > gap_ns) {
+        rlf_log(RLF_LOG_WARNING,
+                "%s: the colour pictures are %lld ms or more away from the depth, so none is "
+                "shown: ?gap=MS allows more",
+                r->log.name, (long long)(nearest / 1000000));
+    }
+}
+
+rlf_result io_ros_open_clip(io_ros_recording *r, const rlf_address *address, io_clip_def *def,
+                            rlf_opened *out)
+{
+    int64_t gap_ns = IO_COLOR_GAP_MAX_NS;
+    rlf_result result = read_gap(address, &gap_ns);
+    const bool is_metres = io_ros_is_metres(r->depth.pixels);
+    if (result == RLF_OK && is_metres && !r->decoder.rounds_metres) {
+        r->decoder.counts = rlf_alloc_array(
+            (size_t)r->rig.depth.width * (size_t)r->rig.depth.height, sizeof(uint16_t));
+        result = r->decoder.counts != NULL ? RLF_OK : RLF_ERROR_MEMORY;
+    }
+    if (result != RLF_OK) {
+        return result;
+    }
+    if (!def->origin.has_notes) {
+        warn_unpaired(r, gap_ns);
+    }
+    def->name = r->log.name;
+    def->rig = r->rig;
+    def->units_per_metre = !is_metres                 ? r->units_per_metre
+                           : r->decoder.rounds_metres ? IO_PIXELS_FLOAT_UNITS
+                                                      : 0.0;
+    def->depth_times = r->depth.times;
+    def->color_times = r->color.times;
+    def->depth_count = r->depth.count;
+    def->color_count = r->color.count;
+    def->color_gap_max_ns = gap_ns;
+    def->flags = r->flags;
+    def->read_depth = read_depth;
+    def->read_color = read_color;
+    return io_clip_open(def, out);
+}
