@@ -2,9 +2,8 @@
  * bench_recording [SOURCE [SECONDS]]. Codecs are measured on the first frames of SOURCE, default
  * synthetic:room; recording and playback on 512 x 424 depth and 1920 x 1080 colour. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/codec/picture_encode.h"
-#include "io/codec/rvl.h"
 #include "io/picture/picture.h"
+#include "io/picture/pixels.h"
 #include "recorder.h"
 
 #include <pthread.h>

@@ -1,5 +1,5 @@
 /* Windows and binning of a camera's picture. */
-#include "io/camera_window.h"
+#include "io/camera_json.h"
 
 /* One direction. Centres of pixels are whole numbers, so the first pixel of n joined ones begins at
  * -0.5 and their common centre is at (n - 1) / 2. */

@@ -2,7 +2,6 @@
  * camera moves. */
 #include "relief/io.h"
 #include "io/file.h"
-#include "io/number.h"
 
 #include <string.h>
 

@@ -3,8 +3,6 @@
 #define _POSIX_C_SOURCE 200809L
 #include "io/file.h"
 
-#include "io/reading.h"
-
 #include <errno.h>
 #include <fcntl.h>
 #include <string.h>

@@ -4,6 +4,7 @@
 
 #include "relief/base.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 
 #define IO_PATH_MAX 4096 /* bytes of a path, with its ending zero */
@@ -78,5 +79,35 @@ rlf_result io_out_settle(const io_out_file *file, rlf_result result);
 /* Opens a file that is written in place, so that what was written is kept when the program is
  * killed, and empties it. An error while another program writes it. */
 rlf_result io_out_open_in_place(const char *path, int *out_descriptor);
+
+/* ---- Decimal numbers with a point, whatever the program's locale says ---- */
+
+#define IO_NUMBER_SIZE 32 /* bytes that io_number_format may write, with the ending zero */
+
+/* Nine significant digits ("%.9g"). Returns the length. */
+int io_number_format(double x, char out[IO_NUMBER_SIZE]);
+
+/* Reads a whole token, e.g. "-1.5e3". False when it is not a finite number. */
+bool io_number_parse(const char *token, double *out);
+
+/* What open sources read, so that no writer overwrites it: files and folders by device and inode,
+ * which links do not hide. */
+
+/* A folder that is read; all zero = none. */
+typedef struct io_reading {
+    uint64_t device, inode;
+} io_reading;
+
+/* An open file is being read from now on, and no more: both while it is open. */
+void io_reading_begin_file(int descriptor);
+void io_reading_end_file(int descriptor);
+/* So is a folder, with the pictures and lists in it. */
+io_reading io_reading_begin_folder(const char *path);
+void io_reading_end_folder(io_reading *folder);
+
+/* RLF_ERROR_INVALID when writing that file would change what is being read. */
+rlf_result io_reading_check_file(const char *path);
+/* The same of files that get names of their own in a folder. */
+rlf_result io_reading_check_folder(const char *path);
 
 #endif

@@ -2,7 +2,6 @@
 #define _POSIX_C_SOURCE 200809L
 #include "relief/io.h"
 #include "io/file.h"
-#include "io/reading.h"
 
 #include <errno.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* printf and strtod follow the locale's decimal point, but files must not. */
-#include "io/number.h"
+#include "io/file.h"
 
 #include "relief/math.h"
 

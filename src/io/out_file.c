@@ -4,7 +4,6 @@
 #include "io/file.h"
 
 #include "io/little.h"
-#include "io/reading.h"
 #include "relief/io.h"
 
 #include <errno.h>

@@ -1,6 +1,6 @@
 /* What open sources read, so that no writer overwrites it. */
 #define _XOPEN_SOURCE 700 /* realpath */
-#include "io/reading.h"
+#include "io/file.h"
 
 #include <dirent.h>
 #include <limits.h>

@@ -2,9 +2,9 @@
  * of playing that are within their bounds. */
 #include "fuzz.h"
 
+#include "io/source/backends.h"
 #include "io/source/address.h"
-#include "io/source/nearest_word.h"
-#include "io/clip/replay.h"
+#include "io/clip/clip.h"
 
 #include <stdlib.h>
 

@@ -2,8 +2,7 @@
  * lists in order of time with poses of unit length, or an error line. */
 #include "fuzz.h"
 
-#include "io/folder/associations.h"
-#include "io/folder/pose_files.h"
+#include "io/folder/lists.h"
 
 #include <math.h>
 #include <stdlib.h>

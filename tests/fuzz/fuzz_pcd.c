@@ -1,7 +1,7 @@
 /* .pcd: any bytes give points, or an error line. */
 #include "fuzz.h"
 
-#include "io/pcd/pcd_lens.h"
+#include "io/formats/pcd.h"
 
 #include <stdlib.h>
 

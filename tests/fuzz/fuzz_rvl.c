@@ -1,7 +1,7 @@
 /* RVL: any bytes give a picture of the size asked for, or none. */
 #include "fuzz.h"
 
-#include "io/codec/rvl.h"
+#include "io/picture/pixels.h"
 
 #include <stdlib.h>
 

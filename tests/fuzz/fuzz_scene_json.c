@@ -1,7 +1,7 @@
 /* scene.json: any bytes give bodies that are sane, or an error line. */
 #include "fuzz.h"
 
-#include "io/scene/scene.h"
+#include "io/scene/reader.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #ifndef RLF_TEST_FREENECT_STUB_H
 #define RLF_TEST_FREENECT_STUB_H
 
-#include "io/freenect/api.h"
+#include "io/freenect/freenect.h"
 
 #define STUB_SERIAL "B00364213908042B"
 

@@ -3,7 +3,7 @@
 #ifndef RLF_TEST_KINECT2_SAMPLE_H
 #define RLF_TEST_KINECT2_SAMPLE_H
 
-#include "io/freenect2/registration.h"
+#include "io/freenect2/freenect2.h"
 
 static const kinect2_ir kinect2_sample_ir = {365.5F,  365.5F,  254.9F,  205.4F,  0.0905F,
                                              -0.268F, 0.0951F, 0.0008F, -0.0006F};

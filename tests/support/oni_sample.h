@@ -2,7 +2,7 @@
 #ifndef RLF_TEST_ONI_SAMPLE_H
 #define RLF_TEST_ONI_SAMPLE_H
 
-#include "io/oni/oni_index.h"
+#include "io/formats/oni.h"
 
 #include <string.h>
 

@@ -6,7 +6,6 @@
 #include "bag_file.h"
 #include "io/ros/messages.h"
 #include "io/mcap/write.h"
-#include "io/ros/camera_info.h"
 #include "io_support.h"
 
 #define ROS_TIME_S 1000

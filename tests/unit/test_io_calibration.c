@@ -7,8 +7,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "io/calibration/text.h"
-#include "io/calibration/xml.h"
+#include "io/calibration/calibration.h"
 #include "io_support.h"
 #include "relief/io.h"
 

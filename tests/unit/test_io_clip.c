@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
+#include "io/source/backends.h"
 #include "io/source/address.h"
 #include "io/clip/clip.h"
 

@@ -5,10 +5,8 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "io/driver/least_squares.h"
-#include "io/driver/lens_fit.h"
-#include "io/driver/library.h"
-#include "io/driver/live.h"
+#include "io/live/least_squares.h"
+#include "io/live/driver.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -8,8 +8,8 @@
 #include <cmocka.h>
 
 #include "relief/io.h"
-#include "io/folder/frame_list.h"
-#include "io/clip/pairing.h"
+#include "io/folder/lists.h"
+#include "io/clip/clip.h"
 #include "io_support.h"
 #include "jpeg_sample.h"
 

@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "relief/io.h"
-#include "io/folder/guess_camera.h"
+#include "io/folder/layout.h"
 #include "io_support.h"
 
 #define MOST (512 * 424)

@@ -10,7 +10,8 @@
 #include <math.h>
 
 #include "relief/io.h"
-#include "io/scene/scene.h"
+#include "io/scene/reader.h"
+#include "io/scene/pattern.h"
 #include "io_support.h"
 #include "model_file.h"
 

@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "io/k4a/k4a_api.h"
+#include "io/k4a/k4a.h"
 #include "io/source/backends.h"
 #include "io_support.h"
 #include "stub_k4a.h"

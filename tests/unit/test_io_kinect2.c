@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "io/freenect2/kinect2_rig.h"
+#include "io/freenect2/freenect2.h"
 #include "kinect2_sample.h"
 
 #include <math.h>

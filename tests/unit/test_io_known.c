@@ -8,7 +8,8 @@
 #include <cmocka.h>
 
 #include "relief/io.h"
-#include "io/scene/scene.h"
+#include "io/scene/reader.h"
+#include "io/scene/pattern.h"
 #include "io_support.h"
 
 static rlf_result parse(const char *text, rlf_scene *scene)

@@ -8,8 +8,7 @@
 #include <cmocka.h>
 
 #include "relief/io.h"
-#include "io/folder/associations.h"
-#include "io/folder/pose_files.h"
+#include "io/folder/lists.h"
 #include "io_support.h"
 
 #include <math.h>

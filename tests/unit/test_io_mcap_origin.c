@@ -9,7 +9,7 @@
 
 #include "recording_sample.h"
 
-#include "io/clip/frame_note.h"
+#include "io/clip/clip.h"
 
 #define FRAMES 9
 #define MS INT64_C(1000000)

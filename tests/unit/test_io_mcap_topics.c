@@ -8,8 +8,8 @@
 #include <cmocka.h>
 
 #include "relief/io.h"
-#include "io/codec/picture_encode.h"
-#include "io/mcap/compress.h"
+#include "io/picture/picture.h"
+#include "io/mcap/format.h"
 #include "io/mcap/read.h"
 #include "ros_file.h"
 

@@ -12,7 +12,8 @@
 
 #include "relief/io.h"
 #include "io/picture/picture.h"
-#include "io/scene/scene.h"
+#include "io/scene/reader.h"
+#include "io/scene/pattern.h"
 #include "io_support.h"
 #include "model_file.h"
 

@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "io/oni/depth_codec.h"
+#include "io/formats/oni.h"
 #include "io_support.h"
 #include "oni_sample.h"
 #include "relief/io.h"

@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "io/openni2/api.h"
+#include "io/openni2/openni2.h"
 #include "direct_source.h"
 #include "io_support.h"
 #include "openni2_driver/control.h"

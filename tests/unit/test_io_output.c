@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "relief/io.h"
-#include "io/number.h"
+#include "io/file.h"
 #include "io_support.h"
 
 #include <signal.h>

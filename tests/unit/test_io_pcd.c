@@ -8,9 +8,7 @@
 #include <cmocka.h>
 
 #include "relief/io.h"
-#include "io/pcd/lzf.h"
-#include "io/pcd/pcd_lens.h"
-#include "io/pcd/pcd_points.h"
+#include "io/formats/pcd.h"
 #include "io_support.h"
 
 #include <math.h>

@@ -7,8 +7,7 @@
 #include <cmocka.h>
 
 #include "relief/io.h"
-#include "io/pixels/compressed_depth.h"
-#include "io/pixels/pixels.h"
+#include "io/picture/pixels.h"
 #include "io_support.h"
 
 #include <math.h>

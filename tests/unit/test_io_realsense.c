@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "io/realsense/realsense_api.h"
+#include "io/realsense/realsense.h"
 #include "io/source/backends.h"
 #include "stub_realsense2.h"
 #include "stub_source.h"

@@ -9,7 +9,8 @@
 #include <cmocka.h>
 
 #include "relief/io.h"
-#include "io/source/nearest_word.h"
+#include "io/source/address.h"
+#include "io/source/backends.h"
 #include "io_support.h"
 
 #define W 16

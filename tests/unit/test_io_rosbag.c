@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "relief/io.h"
-#include "io/rosbag/bag.h"
+#include "io/ros/bag.h"
 #include "bag_sample.h"
 #include "io_support.h"
 

@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "io/codec/rvl.h"
+#include "io/picture/pixels.h"
 
 #include <stdlib.h>
 #include <string.h>

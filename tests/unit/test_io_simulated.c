@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "io/live/follow.h"
+#include "io/live/live.h"
 #include "io_support.h"
 #include "live_watch.h"
 #include "relief/io.h"

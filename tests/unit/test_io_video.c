@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "relief/io.h"
-#include "io/video/yuv.h"
+#include "io/video/video.h"
 #include "io_support.h"
 
 static rlf_image_rgba8 flat(uint8_t *pixels, int32_t w, int32_t h, uint32_t rgb)

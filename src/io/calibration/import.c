@@ -1,10 +1,6 @@
 /* Any calibration file as a rig. */
 #include "relief/io.h"
-#include "io/calibration/kalibr.h"
-#include "io/calibration/kind.h"
-#include "io/calibration/lens.h"
-#include "io/calibration/text.h"
-#include "io/calibration/xml.h"
+#include "io/calibration/calibration.h"
 #include "io/camera_json.h"
 
 #include <string.h>

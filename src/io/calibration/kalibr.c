@@ -1,7 +1,6 @@
 /* camchain.yaml: cam0, cam1 ..., each a pinhole with its lens. */
-#include "io/calibration/kalibr.h"
+#include "io/calibration/calibration.h"
 
-#include "io/calibration/lens.h"
 #include "io/camera_json.h"
 
 #include <string.h>

@@ -1,5 +1,5 @@
 /* Kinds of files, by their first bytes and by their keys. */
-#include "io/calibration/kind.h"
+#include "io/calibration/calibration.h"
 
 #include <string.h>
 

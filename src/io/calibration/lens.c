@@ -1,9 +1,8 @@
 /* The field names of four programs, and Brown-Conrady coefficients in OpenCV's order, that all but
  * Open3D share: k1 k2 p1 p2 k3 k4 k5 k6. */
-#include "io/calibration/lens.h"
+#include "io/calibration/calibration.h"
 
 #include "io/camera_json.h"
-#include "io/camera_window.h"
 
 #include <string.h>
 

@@ -1,8 +1,8 @@
 /* Recursive descent over lines; nested at most DEPTH_MAX deep, so that no file exhausts the stack.
  */
-#include "io/calibration/text.h"
+#include "io/calibration/calibration.h"
 
-#include "io/number.h"
+#include "io/file.h"
 
 #include <stdarg.h>
 #include <string.h>

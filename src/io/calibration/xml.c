@@ -1,7 +1,7 @@
 /* Recursive descent over elements; nested at most DEPTH_MAX deep. */
-#include "io/calibration/xml.h"
+#include "io/calibration/calibration.h"
 
-#include "io/number.h"
+#include "io/file.h"
 
 #include <string.h>
 

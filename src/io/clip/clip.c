@@ -1,8 +1,6 @@
 /* A recorded clip as a source. */
 #include "io/clip/clip.h"
 
-#include "io/clip/pairing.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* What a recording keeps of a frame that its pictures and their times do not tell. */
-#include "io/clip/frame_note.h"
+#include "io/clip/clip.h"
 
 #include <inttypes.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* Pairs of depth and colour pictures by their times. */
-#include "io/clip/pairing.h"
+#include "io/clip/clip.h"
 
 #include <stdlib.h>
 

@@ -1,8 +1,6 @@
 /* How a recording is played: over and over, at a speed, a part of it, with lost frames. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/clip/replay.h"
-
-#include "io/clip/pairing.h"
+#include "io/clip/clip.h"
 
 #include <string.h>
 #include <time.h>

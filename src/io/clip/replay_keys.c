@@ -1,7 +1,8 @@
 /* The keys of playing, read. */
-#include "io/number.h"
-#include "io/source/nearest_word.h"
-#include "io/clip/replay.h"
+#include "io/file.h"
+#include "io/source/address.h"
+#include "io/source/address.h"
+#include "io/clip/clip.h"
 
 #include <string.h>
 

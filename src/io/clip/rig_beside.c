@@ -1,6 +1,6 @@
 /* Calibration of recordings that hold none. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/clip/rig_beside.h"
+#include "io/clip/clip.h"
 
 #include "relief/io.h"
 #include "io/file.h"

@@ -1,12 +1,11 @@
 /* Frames from a folder of pictures, in the TUM layout with camera.json or in those of data sets. */
 #define _POSIX_C_SOURCE 200809L
 #include "relief/io.h"
-#include "io/folder/guess_camera.h"
 #include "io/folder/layout.h"
 #include "io/folder/origin.h"
 #include "io/camera_json.h"
 #include "io/picture/picture.h"
-#include "io/reading.h"
+#include "io/file.h"
 #include "io/source/backends.h"
 #include "io/clip/clip.h"
 

@@ -1,7 +1,5 @@
 /* Lists of timestamped files. */
-#include "io/folder/frame_list.h"
-
-#include "io/folder/time_unit.h"
+#include "io/folder/lists.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Cameras by the size of their depth pictures. One camera differs from the next of its kind by some
  * per cent, and several kinds share a size: it is a guess, and whoever takes it says so. */
-#include "io/folder/guess_camera.h"
+#include "io/folder/layout.h"
 
 #include "relief/image.h"
 

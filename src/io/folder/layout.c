@@ -1,10 +1,7 @@
 /* How the pictures of a folder are arranged. */
 #define _POSIX_C_SOURCE 200809L
 #include "io/folder/layout.h"
-
-#include "io/folder/associations.h"
-#include "io/folder/named_files.h"
-#include "io/folder/numbered_files.h"
+#include "io/folder/lists.h"
 
 #include <stdio.h>
 #include <string.h>

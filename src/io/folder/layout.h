@@ -2,8 +2,41 @@
 #ifndef RLF_IO_FOLDER_LAYOUT_H
 #define RLF_IO_FOLDER_LAYOUT_H
 
-#include "io/folder/frame_list.h"
+#include "io/clip/clip.h"
+#include "io/folder/lists.h"
 #include "relief/backend.h"
+#include "relief/camera.h"
+
+/* ---- Pictures of a folder that nothing lists, in the order of their names ---- */
+
+/* Files of folder/sub ("" = the folder itself) whose names hold `word` ("" = any) and end with one
+ * of `endings` (NULL after the last), in natural order: 2 before 10. The n-th is n / 30 s. No such
+ * folder gives an empty list. */
+rlf_result io_named_list(const char *folder, const char *sub, const char *word,
+                         const char *const *endings, io_frame_list *out);
+/* Gives both lists the times of the numbers in their names (the last of each name), where all have
+ * one. Else pictures go together one by one, if there are as many of depth as of colour. False:
+ * nobody knows which go together. */
+bool io_named_pair(io_frame_list *depth, io_frame_list *color);
+
+/* ---- Lists of pictures made from the names in a folder ---- */
+
+/* Files of folder/sub ("" = the folder itself) whose names begin with `prefix`, go on with a number
+ * and end with one of `endings` (NULL after the last). Times are number / 30 s, or, of names like
+ * 000012-000000400320.png, the microseconds after the minus. In order of time. No such folder gives
+ * an empty list. */
+rlf_result io_numbered_list(const char *folder, const char *sub, const char *prefix,
+                            const char *const *endings, io_frame_list *out);
+
+/* ---- The camera of a clip that names none, guessed from the size of its depth pictures ---- */
+
+/* What cameras that give pictures of width x height usually have. NULL: no camera is known for that
+ * size. Else the camera's name, for a message. */
+const char *io_guess_camera(int32_t width, int32_t height, rlf_camera *out);
+
+/* Counts per metre of a 16-bit depth picture: 1000 (millimetres), or 5000 (TUM RGB-D) where
+ * millimetres would put the middle of the picture beyond any room. */
+double io_guess_units(const uint16_t *depth, size_t count);
 
 typedef enum io_layout_kind {
     IO_LAYOUT_TUM = 0,     /* depth.txt, rgb.txt or associations.txt */

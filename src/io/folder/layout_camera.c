@@ -2,7 +2,6 @@
  * known to have used. */
 #include "io/folder/layout.h"
 
-#include "io/folder/guess_camera.h"
 #include "io/json.h"
 
 #include <math.h>

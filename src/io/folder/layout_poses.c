@@ -1,10 +1,8 @@
 /* The poses that lie beside the pictures of a folder. */
 #define _POSIX_C_SOURCE 200809L
 #include "io/folder/layout.h"
-
-#include "io/folder/numbered_files.h"
+#include "io/folder/lists.h"
 #include "io/folder/origin.h"
-#include "io/folder/pose_files.h"
 
 #include <dirent.h>
 #include <stdio.h>

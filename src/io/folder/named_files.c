@@ -1,8 +1,6 @@
 /* Pictures of a folder that nothing lists. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/folder/named_files.h"
-
-#include "io/folder/numbered_files.h"
+#include "io/folder/layout.h"
 
 #include <dirent.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* Lists of pictures made from the names in a folder. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/folder/numbered_files.h"
+#include "io/folder/layout.h"
 
 #include <dirent.h>
 #include <stdlib.h>

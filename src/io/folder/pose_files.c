@@ -1,9 +1,8 @@
 /* Where the camera was, from the files that come with data sets. */
-#include "io/folder/pose_files.h"
+#include "io/folder/lists.h"
 
-#include "io/folder/time_unit.h"
-#include "io/number.h"
-#include "io/clip/pairing.h"
+#include "io/file.h"
+#include "io/clip/clip.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* Units of times. */
-#include "io/folder/time_unit.h"
+#include "io/folder/lists.h"
 
 #include <stdlib.h>
 

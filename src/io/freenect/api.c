@@ -1,8 +1,8 @@
 /* libfreenect, found at run time. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/freenect/api.h"
+#include "io/freenect/freenect.h"
 
-#include "io/driver/library.h"
+#include "io/live/driver.h"
 
 #include <pthread.h>
 

@@ -1,5 +1,5 @@
 /* Kinect v1: depth from disparity, and the factory's mapping of depth to colour. */
-#include "io/freenect/calibration.h"
+#include "io/freenect/freenect.h"
 
 #include <math.h>
 #include <stddef.h>

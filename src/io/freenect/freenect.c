@@ -1,8 +1,7 @@
 /* Kinect v1 through libfreenect. */
-#include "io/driver/live.h"
-#include "io/freenect/calibration.h"
+#include "io/live/driver.h"
+#include "io/freenect/freenect.h"
 #include "io/source/backends.h"
-#include "io/driver/stream_pair.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* Kinect v2 through libfreenect2, behind the C functions of freenect2_shim.h. */
-#include "io/driver/library.h"
+#include "io/live/driver.h"
 #include "io/freenect2/freenect2.h"
 #include "io/source/backends.h"
 

@@ -1,9 +1,9 @@
 /* The Kinect v2 does not tell its colour camera: the factory stores two cubic polynomials that map
  * depth pixels to colour pixels. A pinhole with a plumb_bob lens and a pose is fitted to them by
  * Gauss and Newton's method, so that Relief treats this camera as any other. */
-#include "io/freenect2/kinect2_rig.h"
+#include "io/freenect2/freenect2.h"
 
-#include "io/driver/least_squares.h"
+#include "io/live/least_squares.h"
 
 #include <math.h>
 

@@ -3,7 +3,7 @@
  * The order of every float operation is that of libfreenect2, so the results are the same bits.
  * What is different is the order of the work: the two passes over the 8 MB of big depth go along
  * with the rows of the depth picture, while those rows are still in the cache. */
-#include "io/freenect2/registration.h"
+#include "io/freenect2/freenect2.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* libk4a, opened when it is first asked for. */
-#include "io/k4a/k4a_api.h"
+#include "io/k4a/k4a.h"
 
-#include "io/driver/library.h"
+#include "io/live/driver.h"
 
 #include <pthread.h>
 

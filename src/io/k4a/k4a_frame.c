@@ -1,10 +1,10 @@
 /* Frames of an Azure Kinect or Femto camera. */
 #include "io/k4a/k4a.h"
 
-#include "io/clip/pairing.h"
+#include "io/clip/clip.h"
 #include "io/file.h"
 #include "io/picture/picture.h"
-#include "io/pixels/pixels_check.h"
+#include "io/picture/pixels.h"
 
 #include <string.h>
 

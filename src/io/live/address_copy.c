@@ -1,5 +1,5 @@
 /* An address that lives longer than the call that gave it. */
-#include "io/live/address_copy.h"
+#include "io/live/live.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* The thread that talks to a camera's driver: opens, takes frames, closes, opens again. */
-#include "io/live/state.h"
+#include "io/live/live.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,8 +1,6 @@
 /* A camera whose every frame is given in its turn: its driver is asked on a thread of its own. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/live/direct.h"
-
-#include "io/live/slot.h"
+#include "io/live/live.h"
 
 #include <pthread.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* Times and counts of a camera's frames, kept going when its own clock or counter starts anew. */
-#include "io/live/follow.h"
+#include "io/live/live.h"
 
-#include "io/clip/pairing.h"
+#include "io/clip/clip.h"
 
 /* The device's clock and this machine's agree about the time between two frames up to this; a wider
  * difference is a clock that was set, or wrapped around. */

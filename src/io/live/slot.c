@@ -1,5 +1,5 @@
 /* Room for one frame of a camera, kept while its driver goes on. */
-#include "io/live/slot.h"
+#include "io/live/live.h"
 
 #include <string.h>
 

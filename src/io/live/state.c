@@ -1,6 +1,6 @@
 /* What a live source's reader and its capture thread share. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/live/state.h"
+#include "io/live/live.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* Compression of chunks through libzstd and liblz4. */
-#include "io/mcap/compress.h"
+#include "io/mcap/format.h"
 
 #include <lz4frame.h>
 #include <zstd.h>

@@ -2,6 +2,7 @@
 #ifndef RLF_IO_MCAP_FORMAT_H
 #define RLF_IO_MCAP_FORMAT_H
 
+#include "io/picture/picture.h"
 #include "relief/base.h"
 
 #include <string.h>
@@ -102,5 +103,63 @@ static inline void io_mcap_copy(const io_mcap_cursor *block, char *out, size_t s
     }
     out[length] = '\0';
 }
+
+/* ---- Compression of chunks ---- */
+
+/* Work memory of zstd and lz4. One thread at a time. */
+typedef struct io_mcap_compressor io_mcap_compressor;
+
+rlf_result io_mcap_compressor_create(io_mcap_compressor **out);
+void io_mcap_compressor_destroy(io_mcap_compressor **compressor);
+
+/* As the file format calls it: "zstd", "lz4" or "". */
+const char *io_mcap_compression_name(io_mcap_compression compression);
+/* False for a name that this build does not know. */
+bool io_mcap_compression_parse(const io_mcap_cursor *name, io_mcap_compression *out);
+
+/* What a frame of zstd says that it unpacks to; 0 = it is none, or does not say. */
+uint64_t io_mcap_zstd_size(const uint8_t *data, size_t size);
+
+/* Appends the compressed bytes. */
+rlf_result io_mcap_compress(io_mcap_compressor *compressor, io_mcap_compression compression,
+                            const uint8_t *data, size_t size, io_byte_buffer *out);
+/* Whether `size` bytes could be that many once decompressed, as far as their head tells: asked
+ * before memory is taken for them. */
+bool io_mcap_can_become(io_mcap_compression compression, const uint8_t *data, size_t size,
+                        uint64_t out_size);
+/* Fills all of `out`; false when the bytes are damaged or are not exactly so many. */
+bool io_mcap_decompress(io_mcap_compressor *compressor, io_mcap_compression compression,
+                        const uint8_t *data, size_t size, uint8_t *out, size_t out_size);
+
+/* ---- Names in Relief's own recordings ---- */
+
+#define IO_TOPIC_DEPTH_RVL "/relief/depth/image_raw/compressedDepth"
+#define IO_TOPIC_DEPTH_RAW "/relief/depth/image_raw"
+#define IO_TOPIC_DEPTH_INFO "/relief/depth/camera_info"
+#define IO_TOPIC_COLOR "/relief/color/image_raw/compressed"
+#define IO_TOPIC_COLOR_INFO "/relief/color/camera_info"
+#define IO_TOPIC_POSE "/relief/pose"
+
+#define IO_TOPIC_FRAME "/relief/frame"
+
+#define IO_FRAME_DEPTH "relief_depth_optical_frame"
+#define IO_FRAME_COLOR "relief_color_optical_frame"
+#define IO_FRAME_WORLD "relief_world"
+
+/* Keys of the Metadata record "relief": what ROS 2 has no message for. */
+#define IO_KEY_UNITS "units_per_metre"
+#define IO_KEY_DEPTH_MIN "depth_min_m"
+#define IO_KEY_DEPTH_MAX "depth_max_m"
+#define IO_KEY_NOISE_0 "noise_c0"
+#define IO_KEY_NOISE_1 "noise_c1"
+#define IO_KEY_NOISE_2 "noise_c2"
+#define IO_KEY_FLAGS "frame_flags"
+#define IO_KEY_SOURCE "source"
+#define IO_KEY_DEVICE "device"
+#define IO_KEY_GRAVITY "gravity_m_s2" /* "X Y Z" */
+#define IO_KEY_SIMULATED "is_simulated"
+#define IO_KEY_RATE "frames_per_second"
+#define IO_KEY_NOTES "frame_notes" /* there are: what is not noted of a frame is as usual */
+#define IO_KEY_UNIX_OFFSET "unix_minus_stamp_ns"
 
 #endif

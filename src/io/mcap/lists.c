@@ -1,7 +1,7 @@
 /* What the MCAP reader knows: lists that grow, and bytes of the file. */
 #include "io/mcap/reader.h"
 
-#include "io/ros/topics.h"
+#include "io/ros/recording.h"
 
 #include <stdlib.h>
 

@@ -1,11 +1,11 @@
 /* Recording into an MCAP file with ROS 2 messages. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/recording/sink.h"
+#include "io/clip/sink.h"
 
-#include "io/clip/frame_note.h"
-#include "io/codec/picture_encode.h"
-#include "io/codec/rvl.h"
-#include "io/mcap/recording_format.h"
+#include "io/clip/clip.h"
+#include "io/picture/picture.h"
+#include "io/picture/pixels.h"
+#include "io/mcap/format.h"
 #include "io/ros/messages.h"
 #include "io/mcap/write.h"
 

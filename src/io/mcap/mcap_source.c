@@ -1,7 +1,7 @@
 /* MCAP files as a source: Relief's own recordings, and anybody's ROS 2 recordings of a depth
  * camera. */
-#include "io/mcap/origin.h"
-#include "io/mcap/recording_format.h"
+#include "io/mcap/read.h"
+#include "io/mcap/format.h"
 #include "io/ros/recording.h"
 #include "io/source/backends.h"
 

@@ -1,7 +1,7 @@
 /* What a recording of Relief's own says beside its pictures. */
-#include "io/mcap/origin.h"
+#include "io/mcap/read.h"
 
-#include "io/mcap/recording_format.h"
+#include "io/mcap/format.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #ifndef RLF_IO_MCAP_READER_H
 #define RLF_IO_MCAP_READER_H
 
-#include "io/mcap/compress.h"
+#include "io/mcap/format.h"
 #include "io/mcap/read.h"
 
 /* A list that grows; `size` of an item is given with every call. */

@@ -1,6 +1,7 @@
 /* What glTF and OBJ share: growing lists of vertices, made-up normals, textures, files beside. */
 #define _XOPEN_SOURCE 700
 #include "io/model/model.h"
+#include "io/model/obj.h"
 #include "io/picture/picture.h"
 
 #include <limits.h>
@@ -20,25 +21,6 @@
 #endif
 
 /* ---- lists ---------------------------------------------------------------------------------- */
-
-rlf_result io_model_grow(void **items, int32_t count, int64_t more, int32_t *room, size_t size)
-{
-    if (count + more <= *room) {
-        return RLF_OK;
-    }
-    const int64_t wanted = count + more > 2 * (int64_t)*room ? count + more : 2 * (int64_t)*room;
-    void *grown = rlf_alloc_array((size_t)wanted, size);
-    if (grown == NULL) {
-        return RLF_ERROR_MEMORY;
-    }
-    if (count > 0) {
-        memcpy(grown, *items, (size_t)count * size);
-    }
-    rlf_free(*items);
-    *items = grown;
-    *room = (int32_t)wanted;
-    return RLF_OK;
-}
 
 rlf_result io_model_reserve(io_model_draft *d, int64_t vertices, int64_t triangles)
 {

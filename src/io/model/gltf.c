@@ -1,6 +1,7 @@
 /* glTF 2.0: the meshes that its scene shows, as one list of triangles. Each node is visited once,
  * and all that is drawn is counted before it takes memory. */
 #include "io/model/gltf.h"
+#include "io/model/obj.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,6 @@
 /* Checks that a mesh is a closed convex solid and makes it a hull about its centre of mass. */
-#include "io/model/model.h"
+#include "io/model/hull.h"
+#include "io/model/obj.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -258,7 +259,7 @@ rlf_result io_hull_load(const char *path, rlf_hull **out, io_obj_facts *out_fact
     io_obj obj = {0};
     io_mesh mesh = {0};
     rlf_result result =
-        io_file_read(path, IO_MODEL_FILE_MAX, "check the name of the model", &buffer, &file);
+        io_file_read(path, IO_OBJ_FILE_MAX, "check the name of the model", &buffer, &file);
     if (result == RLF_OK) {
         result = io_obj_parse(&file, &obj);
     }

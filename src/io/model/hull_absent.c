@@ -1,5 +1,5 @@
 /* Stands in for hull_qhull.c where it is not built. */
-#include "io/model/model.h"
+#include "io/model/hull.h"
 
 #include "base/messages.h"
 

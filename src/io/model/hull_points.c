@@ -1,6 +1,6 @@
 /* Hulls of points with few vertices: those that stand out most are kept, one after the other. */
 #include "relief/io.h"
-#include "io/model/model.h"
+#include "io/model/hull.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* Convex hulls by qhull (Barber, Dobkin, Huhdanpaa 1996). */
-#include "io/model/model.h"
+#include "io/model/hull.h"
 
 #include <libqhull_r/qhull_ra.h>
 

@@ -1,6 +1,7 @@
 /* Models by the names of their files, and the hulls around them. */
 #include "relief/io.h"
 #include "io/model/model.h"
+#include "io/model/hull.h"
 
 #include <string.h>
 

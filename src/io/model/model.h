@@ -14,10 +14,6 @@
 /* Nodes one in the other. */
 #define IO_MODEL_DEPTH_MAX 256
 
-/* Limits of a hull that bodies collide with. */
-#define IO_HULL_VERTICES_MAX 4096
-#define IO_HULL_TRIANGLES_MAX 8192
-
 #ifdef RLF_HAVE_QHULL
 #define IO_WRAPS_MODELS true
 #else
@@ -47,47 +43,7 @@ double io_model_fit(const rlf_aabb *box, rlf_vec3 size);
 rlf_result io_model_hull(const char *name, const rlf_model *model, double scale, rlf_hull **out,
                          rlf_look *out_look);
 
-/* ---- hulls ---------------------------------------------------------------------------------- */
-
-/* A mesh while it is being made; both arrays are rlf_alloc'ed. */
-typedef struct io_mesh {
-    rlf_vec3 *vertices;
-    int32_t vertex_count;
-    int32_t *triangles;
-    int32_t triangle_count;
-} io_mesh;
-
-void io_mesh_free(io_mesh *mesh);
-
-/* Turns a closed convex mesh into a hull with its origin at the centre of mass, which goes to
- * *out_centre (NULL is allowed), and triangles counter-clockwise seen from outside. The hull and
- * its arrays are one rlf_alloc block. Vertices that no triangle uses are left out. RLF_ERROR_FORMAT
- * when it is open or not convex. */
-rlf_result io_hull_from_mesh(const char *name, const io_mesh *mesh, rlf_hull **out,
-                             rlf_vec3 *out_centre);
-
-/* What a file says beside its mesh. */
-typedef struct io_obj_facts {
-    rlf_vec3 centre;    /* of mass, in the file's frame */
-    bool has_materials; /* names a library of materials */
-} io_obj_facts;
-
-/* A closed convex OBJ; out_facts may be NULL. */
-rlf_result io_hull_load(const char *path, rlf_hull **out, io_obj_facts *out_facts);
-/* Grows a hull that io_hull_from_mesh made, about its centre. */
-void io_hull_scale(rlf_hull *hull, double scale);
-/* A copy in one rlf_alloc block; NULL when memory is short. */
-rlf_hull *io_hull_copy(const rlf_hull *hull);
-
-/* Triangles around all points, outward, between those points that are its corners; io_mesh_free it.
- * hull_qhull.c, or hull_absent.c where RELIEF_WITH_QHULL is off. */
-rlf_result io_hull_wrap(const char *name, const rlf_vec3 *points, int32_t count, io_mesh *out);
-
-/* rlf_hull_create with a name for error lines. */
-rlf_result io_hull_of_points(const char *name, const rlf_vec3 *points, int32_t count,
-                             int32_t vertex_limit, rlf_hull **out, rlf_vec3 *out_centre);
-
-/* ---- readers: what import.c puts together ---------------------------------------------------- */
+/* ---- readers: what load.c puts together ---------------------------------------------------- */
 
 /* A model in the making. Its arrays grow. */
 typedef struct io_model_draft {
@@ -113,8 +69,6 @@ typedef struct io_model_draft {
 rlf_result io_model_read_gltf(io_model_draft *draft, const io_bytes *file);
 rlf_result io_model_read_obj(io_model_draft *draft, const io_bytes *file);
 
-/* Room for `more` items in a list that has `count`; the limit is the caller's. */
-rlf_result io_model_grow(void **items, int32_t count, int64_t more, int32_t *room, size_t size);
 /* Room for more vertices and triangles, or the line that says that there are too many. */
 rlf_result io_model_reserve(io_model_draft *draft, int64_t vertices, int64_t triangles);
 /* Vertices and triangles from these on, three corners of their own each: gives normals of length 0
@@ -131,33 +85,5 @@ rlf_result io_model_read_beside(io_model_draft *draft, const char *name, io_buff
  * the file when that is NULL. -1 = it cannot be had, which is warned of once. */
 rlf_result io_model_texture(io_model_draft *draft, const char *name, const io_bytes *embedded,
                             int32_t *out);
-
-/* ---- OBJ ------------------------------------------------------------------------------------- */
-
-#define IO_OBJ_LIBRARIES_MAX 8
-
-/* The triangles of a Wavefront OBJ file. rlf_free'd by io_obj_free. */
-typedef struct io_obj {
-    rlf_vec3 *positions, *normals, *uvs;
-    int32_t position_count, normal_count, uv_count;
-    int32_t (*corners)[3]; /* position, uv, normal; -1 = none; three a triangle */
-    int32_t *materials;    /* of each triangle; -1 = none */
-    int32_t triangle_count;
-    char (*names)[256]; /* of materials */
-    int32_t material_count;
-    char libraries[IO_OBJ_LIBRARIES_MAX][256];
-    int32_t library_count;
-} io_obj;
-
-rlf_result io_obj_parse(const io_bytes *file, io_obj *out);
-void io_obj_free(io_obj *obj);
-
-/* The next line of a text that ends with a zero, cut off there; a backslash at its end joins it to
- * the one after. NULL at the end. *line counts. */
-char *io_obj_next_line(char **text, int32_t *line);
-/* The next word of a line, cut off there; NULL when there is none. */
-char *io_obj_next_word(char **line);
-/* What is left of a line, without blanks around. */
-char *io_obj_rest(char *line);
 
 #endif

@@ -1,6 +1,7 @@
 /* Wavefront OBJ: vertices and faces. */
-#include "io/model/model.h"
-#include "io/number.h"
+#include "io/model/obj.h"
+#include "relief/model.h"
+#include "io/file.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -66,6 +67,25 @@ char *io_obj_rest(char *line)
 static rlf_result fail_line(const parser *p, const char *problem)
 {
     return rlf_fail(RLF_ERROR_FORMAT, "%s:%d: %s", p->name, (int)p->line, problem);
+}
+
+rlf_result io_model_grow(void **items, int32_t count, int64_t more, int32_t *room, size_t size)
+{
+    if (count + more <= *room) {
+        return RLF_OK;
+    }
+    const int64_t wanted = count + more > 2 * (int64_t)*room ? count + more : 2 * (int64_t)*room;
+    void *grown = rlf_alloc_array((size_t)wanted, size);
+    if (grown == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    if (count > 0) {
+        memcpy(grown, *items, (size_t)count * size);
+    }
+    rlf_free(*items);
+    *items = grown;
+    *room = (int32_t)wanted;
+    return RLF_OK;
 }
 
 /* ---- vertices ------------------------------------------------------------------------------- */

@@ -1,6 +1,7 @@
 /* OBJ as a model: its materials, and one part for each that faces use. */
 #include "io/model/model.h"
-#include "io/number.h"
+#include "io/model/obj.h"
+#include "io/file.h"
 
 #include <string.h>
 

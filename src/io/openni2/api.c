@@ -1,8 +1,8 @@
 /* OpenNI2, found at run time. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/openni2/api.h"
+#include "io/openni2/openni2.h"
 
-#include "io/driver/library.h"
+#include "io/live/driver.h"
 
 #include <pthread.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* OpenNI2 devices: finding, opening, choosing modes. */
-#include "io/openni2/device.h"
+#include "io/openni2/openni2.h"
 
 #include <stdio.h>
 #include <stdlib.h>

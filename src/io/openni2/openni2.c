@@ -1,8 +1,7 @@
 /* Cameras through OpenNI2: PrimeSense, Asus Xtion, older Orbbec. */
-#include "io/openni2/device.h"
+#include "io/openni2/openni2.h"
 #include "io/source/backends.h"
-#include "io/driver/live.h"
-#include "io/driver/stream_pair.h"
+#include "io/live/driver.h"
 
 #include <stdatomic.h>
 #include <stdio.h>

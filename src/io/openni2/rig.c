@@ -1,7 +1,6 @@
 /* The cameras of an OpenNI2 device. */
-#include "io/driver/live.h"
-#include "io/openni2/device.h"
-#include "io/driver/field_of_view.h"
+#include "io/live/driver.h"
+#include "io/openni2/openni2.h"
 
 /* A camera writes 0 where it is too near to measure: what it did write is believed. */
 #define DEPTH_MIN_M 0.1

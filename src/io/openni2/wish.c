@@ -1,6 +1,6 @@
 /* Keys of an OpenNI2 address. */
-#include "io/driver/live.h"
-#include "io/openni2/device.h"
+#include "io/live/driver.h"
+#include "io/openni2/openni2.h"
 
 #include <string.h>
 

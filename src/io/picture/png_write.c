@@ -1,6 +1,6 @@
 /* PNG files. */
 #include "relief/io.h"
-#include "io/codec/picture_encode.h"
+#include "io/picture/picture.h"
 #include "io/file.h"
 
 /* Fast and nearly as small as the default level 6 on camera pictures. */

@@ -1,7 +1,7 @@
 /* librealsense2, opened when it is first asked for. */
-#include "io/realsense/realsense_api.h"
+#include "io/realsense/realsense.h"
 
-#include "io/driver/library.h"
+#include "io/live/driver.h"
 
 #include <pthread.h>
 #include <stdio.h>

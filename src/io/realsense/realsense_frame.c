@@ -1,6 +1,6 @@
 /* Frames of a RealSense camera. */
-#include "io/clip/pairing.h"
-#include "io/pixels/pixels_check.h"
+#include "io/clip/clip.h"
+#include "io/picture/pixels.h"
 #include "io/realsense/realsense.h"
 
 #include <math.h>

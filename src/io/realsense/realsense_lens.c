@@ -3,7 +3,7 @@
  * library itself is asked where points go, and Relief's model is fitted to the answers. */
 #include "io/realsense/realsense.h"
 
-#include "io/driver/lens_fit.h"
+#include "io/live/driver.h"
 
 #include <math.h>
 

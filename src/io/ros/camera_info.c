@@ -1,5 +1,5 @@
 /* CameraInfo to a camera, and what of it is lost. */
-#include "io/ros/camera_info.h"
+#include "io/ros/messages.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
 /* Common Data Representation. */
-#include "io/ros/cdr.h"
+#include "io/ros/messages.h"
 #include "io/little.h"
 
 #define HEAD 4

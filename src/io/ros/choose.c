@@ -1,6 +1,6 @@
 /* Which topics are depth and colour. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/ros/topics.h"
+#include "io/ros/recording.h"
 
 #include <stdio.h>
 #include <string.h>

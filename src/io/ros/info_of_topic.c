@@ -1,5 +1,5 @@
 /* The calibration of a topic of pictures. */
-#include "io/ros/topics.h"
+#include "io/ros/recording.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -3,9 +3,82 @@
 #ifndef RLF_IO_ROS_MESSAGES_H
 #define RLF_IO_ROS_MESSAGES_H
 
-#include "io/ros/cdr.h"
-#include "io/ros/camera_info.h"
+#include "io/camera_json.h"
+#include "io/picture/picture.h"
 #include "relief/frame.h"
+
+/* Common Data Representation as ROS 2 has it: XCDR1 (OMG DDS-XTypes 1.3, 7.4), every number aligned
+ * to its size from the first byte behind the head of 4. */
+
+/* ---- writing: appends to a buffer ------------------------------------------------------------ */
+
+typedef struct io_cdr_writer {
+    io_byte_buffer *buffer;
+    size_t start; /* of what is aligned */
+} io_cdr_writer;
+
+io_cdr_writer io_cdr_begin(io_byte_buffer *buffer);
+void io_cdr_put_u8(io_cdr_writer *w, uint8_t value);
+void io_cdr_put_u32(io_cdr_writer *w, uint32_t value);
+void io_cdr_put_doubles(io_cdr_writer *w, const double *values, size_t count);
+/* With its ending zero, as CDR has it. */
+void io_cdr_put_text(io_cdr_writer *w, const char *text);
+/* A sequence of bytes: what is appended to the buffer between the two calls. */
+size_t io_cdr_begin_bytes(io_cdr_writer *w);
+void io_cdr_end_bytes(io_cdr_writer *w, size_t begin);
+
+/* ---- reading: any bytes ---------------------------------------------------------------------- */
+
+/* Past the end everything is 0 and `is_bad` is set. */
+typedef struct io_cdr_reader {
+    const uint8_t *data;
+    size_t size, position;
+    uint32_t align_max;
+    bool is_swapped, is_ros1, is_bad;
+} io_cdr_reader;
+
+/* A piece of the message; borrowed from it. */
+typedef struct io_cdr_span {
+    const uint8_t *data;
+    size_t size;
+} io_cdr_span;
+
+io_cdr_reader io_cdr_open(const uint8_t *data, size_t size);
+io_cdr_reader io_ros1_open(const uint8_t *data, size_t size);
+uint8_t io_cdr_get_u8(io_cdr_reader *r);
+uint32_t io_cdr_get_u32(io_cdr_reader *r);
+float io_cdr_get_float(io_cdr_reader *r);
+void io_cdr_get_doubles(io_cdr_reader *r, double *out, size_t count);
+/* Cut to what fits. */
+void io_cdr_get_text(io_cdr_reader *r, char *out, size_t size);
+io_cdr_span io_cdr_get_bytes(io_cdr_reader *r);
+
+/* ---- sensor_msgs/CameraInfo of ROS 1 and 2: what it says of a lens ---- */
+
+#define IO_ROS_NAME_MAX 128 /* of a frame, bytes with the ending zero */
+#define IO_ROS_DISTORTION_MAX                                                                      \
+    14 /* OpenCV's longest model; thin prism and tilt are its last six                             \
+        */
+
+typedef struct io_camera_info {
+    char frame_id[IO_ROS_NAME_MAX];
+    uint32_t width, height; /* of the whole picture, before the window */
+    char model[48];
+    double d[IO_ROS_DISTORTION_MAX];
+    uint32_t d_count; /* as the message says; no more than fit are kept */
+    double k[9], r[9], p[12];
+    io_camera_window window; /* region of interest, binning */
+} io_camera_info;
+
+/* Size of the pictures it describes: its region of interest, with pixels joined by its binning
+ * (REP 104). False when it describes none. */
+bool io_camera_info_size(const io_camera_info *info, int32_t *out_width, int32_t *out_height);
+
+/* The camera of these pictures. Of a topic whose name says "rect" that is P, free of distortion;
+ * else K and D. A warning tells what of the lens cannot be used. RLF_ERROR_FORMAT when it is not
+ * calibrated or describes no picture. `name`: the file, for these lines. */
+rlf_result io_camera_info_lens(const io_camera_info *info, const char *name, const char *topic,
+                               rlf_camera *out);
 
 typedef enum io_ros_type {
     IO_ROS_OTHER = 0,

@@ -1,9 +1,8 @@
 /* Pictures in ROS messages. */
-#include "io/ros/pixels.h"
+#include "io/ros/recording.h"
 
 #include "io/picture/picture.h"
-#include "io/pixels/compressed_depth.h"
-#include "io/pixels/pixels.h"
+#include "io/picture/pixels.h"
 #include "io/little.h"
 
 /* compressed_depth_image_transport: what kind, and two floats that turn counts into inverse depth.

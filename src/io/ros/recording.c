@@ -1,8 +1,8 @@
 /* A ROS recording as a source: its two streams in the order in which the camera took them. */
 #include "io/ros/recording.h"
-#include "io/clip/pairing.h"
-#include "io/number.h"
-#include "io/pixels/pixels.h"
+#include "io/clip/clip.h"
+#include "io/file.h"
+#include "io/picture/pixels.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* The cameras of a recording. */
 #include "io/ros/recording.h"
-#include "io/clip/rig_beside.h"
+#include "io/clip/clip.h"
 
 #include <string.h>
 

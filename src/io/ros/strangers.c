@@ -1,5 +1,5 @@
 /* Messages of pictures that are not read: named, so that nobody looks for the fault elsewhere. */
-#include "io/ros/topics.h"
+#include "io/ros/recording.h"
 
 #include <stdio.h>
 #include <string.h>

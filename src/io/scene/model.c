@@ -1,7 +1,9 @@
 /* Models and hulls of scene.json's bodies. */
 #include "relief/io.h"
+#include "io/model/hull.h"
 #include "io/model/model.h"
 #include "io/scene/reader.h"
+#include "io/scene/pattern.h"
 
 #include <string.h>
 

@@ -1,5 +1,6 @@
 /* What bodies and known objects of a scene have in common: names, points, orientations. */
 #include "io/scene/reader.h"
+#include "io/scene/pattern.h"
 
 #include <string.h>
 

@@ -1,6 +1,5 @@
 /* Grids, stacks, rings and random places. */
 #include "io/scene/pattern.h"
-#include "io/scene/random.h"
 
 #define PLACES_STREAM (-1) /* of a seed; bodies have those from 0 */
 

@@ -2,8 +2,17 @@
 #ifndef RLF_IO_SCENE_READER_H
 #define RLF_IO_SCENE_READER_H
 
+#include "io/file.h"
 #include "io/json.h"
-#include "io/scene/scene.h"
+#include "relief/math.h"
+#include "relief/pipeline.h"
+
+/* ---- scene.json from memory ---- */
+
+#define IO_SCENE_BODIES_MAX 65536
+
+/* `folder` is where relative names of models start. */
+rlf_result io_scene_parse(const io_bytes *file, const char *folder, rlf_scene *out);
 
 /* Parts of a scene that bodies and known objects share. Absent keys that are not required leave
  * *out as it is; the shape must be a def's default. */
@@ -47,5 +56,9 @@ rlf_result io_on_read(const io_json_object *top, rlf_scene *scene);
 
 /* known.c: the list "known_objects". What is read is the scene's also on failure. */
 rlf_result io_known_read(const io_json_object *top, const char *folder, rlf_scene *scene);
+
+/* ---- Where the bodies of a spawn pattern are ---- */
+
+/* Random numbers from a seed, the same on every machine: SplitMix64 (Steele, Lea, Flood 2014). */
 
 #endif

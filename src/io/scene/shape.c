@@ -1,5 +1,6 @@
 /* Shapes of scene.json. */
 #include "io/scene/reader.h"
+#include "io/scene/pattern.h"
 
 #include <string.h>
 

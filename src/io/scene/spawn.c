@@ -1,5 +1,4 @@
 /* scene.json's spawn patterns: many bodies from one. */
-#include "io/scene/random.h"
 #include "io/scene/reader.h"
 #include "io/scene/pattern.h"
 

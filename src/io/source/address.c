@@ -1,6 +1,7 @@
 /* SOURCE of a command line, taken apart. */
 #define _POSIX_C_SOURCE 200809L
 #include "io/source/address.h"
+#include "io/source/address.h"
 
 #include <string.h>
 #include <sys/stat.h>

@@ -24,4 +24,7 @@ rlf_result io_address_parse(const char *source, io_address *out);
 /* Takes a key out; NULL when it was not given. */
 const char *io_address_take(io_address *address, const char *key);
 
+/* Whether `list`, words with blanks between (NULL = none), has the word. */
+bool io_word_is_in(const char *list, const char *word);
+
 #endif

@@ -2,7 +2,6 @@
  * folders. */
 #define _POSIX_C_SOURCE 200809L
 #include "io/source/backends.h"
-#include "io/source/plugin.h"
 #include "relief/io.h"
 
 #include <dirent.h>

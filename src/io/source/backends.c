@@ -1,8 +1,8 @@
 /* The back ends of this build. */
 #include "io/source/backends.h"
+#include "io/source/absent.h"
 
 #include "base/messages.h"
-#include "io/source/absent.h"
 
 /* In the order in which they are asked for a file: a folder is asked last, as it takes any. */
 static const rlf_backend *const built_in[] = {

@@ -2,7 +2,11 @@
 #ifndef RLF_IO_SOURCE_BACKENDS_H
 #define RLF_IO_SOURCE_BACKENDS_H
 
+#include "io/source/address.h"
 #include "relief/backend.h"
+#include "relief/base.h"
+
+#include <stdint.h>
 
 extern const rlf_backend io_backend_folder;
 extern const rlf_backend io_backend_simulated;
@@ -30,5 +34,23 @@ const char *io_backend_plugin_path(int32_t index);
 
 /* Makes a source of its parts; they are destroyed when that fails. */
 rlf_result io_source_create(const rlf_opened *opened, rlf_source **out);
+
+/* ---- Which back end opens a SOURCE ---- */
+
+/* By scheme, else by the file name's extension, else by what the back ends recognise. Fails with a
+ * line that says what this build can open. */
+rlf_result io_backend_find(const char *source, const io_address *address, const rlf_backend **out);
+
+/* ---- Recordings of other programs that are not opened as they are ---- */
+
+/* RLF_OK, or an error that says what the path is and how it is opened: a ROS 2 recording's folder
+ * or database, a compressed file. */
+rlf_result io_foreign_check(const char *source, const char *path);
+
+/* ---- One plug-in: a shared object that exports rlf_backend_entry ---- */
+
+/* Opens the shared object and checks its table. It stays in memory until the program ends: its
+ * functions may be in use anywhere. Fails with a line that names the file and the cure. */
+rlf_result io_plugin_open(const char *path, const rlf_backend **out);
 
 #endif

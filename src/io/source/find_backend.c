@@ -1,10 +1,9 @@
 /* Which back end opens a SOURCE. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/source/find_backend.h"
-
 #include "io/source/backends.h"
 #include "io/source/absent.h"
-#include "io/source/foreign_file.h"
+#include "io/source/address.h"
+
 #include "relief/io.h"
 
 #include <stdio.h>

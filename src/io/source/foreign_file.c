@@ -1,6 +1,6 @@
 /* What `ros2 bag` writes besides MCAP files, and packed files. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/source/foreign_file.h"
+#include "io/source/backends.h"
 
 #include <dirent.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* Which word of a list was meant. */
-#include "io/source/nearest_word.h"
+#include "io/source/address.h"
 #include "relief/io.h"
 
 #include <string.h>

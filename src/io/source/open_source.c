@@ -1,11 +1,9 @@
 /* From the SOURCE of a command line to a source. */
-#include "io/live/direct.h"
 #include "io/live/live.h"
-#include "io/simulated/simulated.h"
+#include "io/live/simulated.h"
 #include "io/source/backends.h"
-#include "io/source/find_backend.h"
-#include "io/source/nearest_word.h"
-#include "io/clip/replay.h"
+#include "io/source/address.h"
+#include "io/clip/clip.h"
 #include "relief/io.h"
 
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* RGBA to planar YUV 4:2:0, Recommendation ITU-R BT.601 with limited range. */
-#include "io/video/yuv.h"
+#include "io/video/video.h"
 
 /* Coefficients times 2^16: 219/255 (0.299, 0.587, 0.114) for Y; for U and V
  * 224/255 (B - Y') / 1.772 and (R - Y') / 1.402 of the full-range luma. The Y row sums to

@@ -3,7 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "control.h"
 
-#include "io/openni2/api.h"
+#include "io/openni2/openni2.h"
 
 #include <pthread.h>
 #include <stdatomic.h>

@@ -2,7 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "stub_k4a.h"
 
-#include "io/k4a/k4a_api.h"
+#include "io/k4a/k4a.h"
 
 #include <stdio.h>
 #include <string.h>

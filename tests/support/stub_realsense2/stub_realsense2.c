@@ -2,7 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "stub_realsense2.h"
 
-#include "io/realsense/realsense_api.h"
+#include "io/realsense/realsense.h"
 
 #include <math.h>
 #include <stdio.h>

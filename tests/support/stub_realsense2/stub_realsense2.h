@@ -3,7 +3,7 @@
 #ifndef RLF_TEST_STUB_REALSENSE2_H
 #define RLF_TEST_STUB_REALSENSE2_H
 
-#include "io/realsense/realsense_api.h"
+#include "io/realsense/realsense.h"
 #include "stub_camera.h"
 
 /* Lens and transform of the colour camera. */

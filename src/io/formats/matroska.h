@@ -1,0 +1,85 @@
+/* Matroska recordings of Azure Kinect and Femto cameras. */
+#ifndef RLF_IO_FORMATS_MATROSKA_H
+#define RLF_IO_FORMATS_MATROSKA_H
+
+#include "io/file.h"
+#include "relief/base.h"
+#include "relief/frame.h"
+
+/* ---- Elements of EBML (RFC 8794), of which Matroska (RFC 9559) files are made ---- */
+
+typedef struct ebml_element {
+    uint32_t id;
+    int32_t header_size; /* bytes in front of the data */
+    int64_t size;        /* of the data; -1 = not known: up to the next element of its level */
+} ebml_element;
+
+/* Longest header of an element: id and size. */
+#define EBML_HEADER_MAX 12
+
+/* Reads the header of an element; false when the bytes are none. */
+bool ebml_read(const uint8_t *data, size_t size, ebml_element *out);
+
+/* Variable-length number, without its marker; returns its length, 0 when it is none. */
+int32_t ebml_number(const uint8_t *data, size_t size, uint64_t *out, bool *out_is_unknown);
+
+/* Unsigned integer of `size` bytes, most significant first. */
+uint64_t ebml_unsigned(const uint8_t *data, size_t size);
+
+/* ---- Matroska: tracks, tags, one attached file, and where each picture is ---- */
+
+#define MKV_TRACKS_MAX 16
+#define MKV_TAGS_MAX 64
+
+typedef struct mkv_track {
+    uint64_t number;
+    char name[32];  /* "COLOR", "DEPTH", "IR" in recordings of k4arecorder */
+    char codec[32]; /* "V_MJPEG", "V_MS/VFW/FOURCC", "V_UNCOMPRESSED" */
+    char fourcc[5]; /* of the latter two */
+    int64_t width, height;
+} mkv_track;
+
+typedef struct mkv_tag {
+    char name[40], value[64];
+} mkv_tag;
+
+/* A block: one picture of a track. */
+typedef struct mkv_block {
+    int64_t time_ns;
+    int64_t position; /* of its bytes in the file */
+    uint32_t size;
+    int32_t track; /* index */
+} mkv_block;
+
+typedef struct mkv_file {
+    io_file file;
+    mkv_track tracks[MKV_TRACKS_MAX];
+    int32_t track_count;
+    mkv_tag tags[MKV_TAGS_MAX];
+    int32_t tag_count;
+    char attached_name[64]; /* of the attached JSON file; "" = none */
+    int64_t attached_position, attached_size;
+    mkv_block *blocks; /* as they come */
+    int32_t block_count, block_capacity;
+} mkv_file;
+
+/* Looks through the whole file once, over the pictures. What follows a damaged place is left out,
+ * with a warning. On failure nothing stays open. */
+rlf_result mkv_file_open(const char *path, mkv_file *out);
+void mkv_file_close(mkv_file *self);
+
+/* Value of a tag; NULL when there is none. */
+const char *mkv_file_tag(const mkv_file *self, const char *name);
+
+/* Reads bytes of the file; the name of *out is the path. */
+rlf_result mkv_file_read(const mkv_file *self, int64_t position, int64_t size, io_buffer *buffer,
+                         io_bytes *out);
+
+/* The calibration that an Azure Kinect or a Femto camera holds, as k4arecorder attaches it. */
+
+/* Fills cameras and transform for pictures of rig->depth.width x height and, when has_color,
+ * rig->color.width x height, which are given. The file is normalised to the whole sensors; a mode
+ * bins it and cuts a window out, which the size tells. */
+rlf_result k4a_calibration_read(const io_bytes *file, rlf_rig *rig);
+
+#endif

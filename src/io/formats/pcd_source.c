@@ -1,0 +1,140 @@
+/* An organised .pcd as a source of one frame. */
+#include "io/camera_json.h"
+#include "io/formats/pcd.h"
+#include "io/source/backends.h"
+#include "io/clip/clip.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define FILE_MAX ((size_t)1 << 30)
+
+typedef struct pcd {
+    io_pcd_header header;
+    io_pcd_points points;
+    rlf_rig rig;
+} pcd;
+
+static rlf_result read_depth(void *self, int32_t index, void *out)
+{
+    (void)index;
+    const pcd *p = self;
+    memcpy(out, p->points.z, (size_t)p->header.width * (size_t)p->header.height * sizeof(float));
+    return RLF_OK;
+}
+
+static rlf_result read_color(void *self, int32_t index, const rlf_image_rgba8 *out)
+{
+    (void)index;
+    const pcd *p = self;
+    memcpy(out->data, p->points.rgba, (size_t)p->header.width * (size_t)p->header.height * 4);
+    return RLF_OK;
+}
+
+static void destroy(void *self)
+{
+    pcd *p = self;
+    io_pcd_points_free(&p->points);
+    rlf_free(p);
+}
+
+static rlf_result check_size(const rlf_address *address, const pcd *p)
+{
+    const rlf_camera *c = &p->rig.depth;
+    if (c->width != p->header.width || c->height != p->header.height) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "%s: has %d x %d points and the calibration is for %d x %d: give that of "
+                        "this camera",
+                        address->source, (int)p->header.width, (int)p->header.height, (int)c->width,
+                        (int)c->height);
+    }
+    return RLF_OK;
+}
+
+/* The user's calibration, else what the points tell, else a file beside. */
+static rlf_result set_rig(const rlf_address *address, pcd *p)
+{
+    double units = 0.0; /* points are in metres */
+    bool is_found = false;
+    rlf_camera lens;
+    p->rig = rlf_rig_default();
+    if (address->rig == NULL && io_pcd_lens_fit(&p->header, &p->points, &lens)) {
+        p->rig.depth = lens;
+        is_found = true;
+    } else {
+        rlf_result result = io_rig_beside(address, &p->rig, &units, &is_found);
+        if (result != RLF_OK) {
+            return result;
+        }
+    }
+    if (!is_found) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "%s: its points do not lie on the rays of a pinhole camera, x right, y "
+                        "down, z forward: give the calibration, ?camera=FILE",
+                        address->source);
+    }
+    /* A point has its colour: one camera for both. */
+    p->rig.has_color = p->points.rgba != NULL;
+    p->rig.color = p->rig.depth;
+    p->rig.T_color_depth = rlf_pose_identity();
+    return check_size(address, p);
+}
+
+static rlf_result read_file(const rlf_address *address, pcd *p)
+{
+    io_buffer buffer = {0};
+    io_bytes file;
+    rlf_result result =
+        io_file_read(address->place, FILE_MAX, "give an organised .pcd file", &buffer, &file);
+    if (result == RLF_OK) {
+        result = io_pcd_header_parse(&file, &p->header);
+    }
+    if (result == RLF_OK) {
+        result = io_pcd_points_read(&file, &p->header, &p->points);
+    }
+    io_buffer_free(&buffer);
+    return result;
+}
+
+static rlf_result open_clip(const rlf_address *address, pcd *p, rlf_opened *out)
+{
+    static const int64_t time_ns = 0;
+    const io_clip_def def = {.name = address->place,
+                             .rig = p->rig,
+                             .depth_times = &time_ns,
+                             .color_times = &time_ns,
+                             .depth_count = 1,
+                             .color_count = p->points.rgba != NULL ? 1 : 0,
+                             .flags = RLF_FRAME_ALIGNED,
+                             .read_depth = read_depth,
+                             .read_color = read_color,
+                             .destroy = destroy,
+                             .self = p};
+    return io_clip_open(&def, out);
+}
+
+static rlf_result pcd_open(const rlf_address *address, rlf_opened *out)
+{
+    pcd *p = rlf_alloc(sizeof(*p));
+    rlf_result result = p != NULL ? read_file(address, p) : RLF_ERROR_MEMORY;
+    if (result == RLF_OK) {
+        result = set_rig(address, p);
+    }
+    if (result == RLF_OK) {
+        result = open_clip(address, p, out);
+    }
+    if (result == RLF_OK) {
+        snprintf(out->info.device, sizeof(out->info.device), "organised point cloud (PCD)");
+    } else if (p != NULL) {
+        destroy(p);
+    }
+    return result;
+}
+
+const rlf_backend io_backend_pcd = {
+    .version = RLF_BACKEND_VERSION,
+    .scheme = "pcd",
+    .extensions = ".pcd",
+    .summary = "one frame: an organised point cloud of PCL",
+    .open = pcd_open,
+};

@@ -1,0 +1,148 @@
+/* What all live cameras need: their modes, the user's calibration, and counts of what was lost. */
+#ifndef RLF_IO_LIVE_DRIVER_H
+#define RLF_IO_LIVE_DRIVER_H
+
+#include "relief/backend.h"
+#include "relief/base.h"
+#include "relief/camera.h"
+#include "relief/source.h"
+
+/* How long a live source's `next` waits before it says RLF_NO_FRAME. */
+#define IO_LIVE_WAIT_MS 100
+
+/* A picture's size and rate as a user asks for it; 0 = any. */
+typedef struct io_mode {
+    int32_t width, height;
+    int32_t frames_per_second;
+} io_mode;
+
+/* Value of `key` as WIDTHxHEIGHT@RATE or WIDTHxHEIGHT; *out is left alone when it was not given. */
+rlf_result io_mode_get(const rlf_address *address, const char *key, io_mode *out);
+
+/* Puts the user's calibration (?camera=FILE) in place of the device's; an error when its pictures
+ * have another size. */
+rlf_result io_live_use_rig(const rlf_address *address, rlf_rig *rig);
+
+/* A driver's transform: nine numbers of a rotation, row by row, and a translation in units of
+ * `metres`. False when it is no rotation. */
+bool io_live_pose(const float rotation[9], const float translation[3], double metres,
+                  rlf_pose *out);
+
+/* Order of the frames of one device. Zero before the first. */
+typedef struct io_live_count {
+    bool has_last;
+    uint64_t number;     /* the device's, of the last frame */
+    int64_t time_ns;     /* the device's, of the last frame */
+    int64_t offset_ns;   /* from the device's time to what is told, which never goes back */
+    int64_t interval_ns; /* nominal; set by the caller */
+    bool is_restarted;   /* set by the caller: the next frame's time is of another clock */
+    uint64_t sequence;
+    uint64_t lost, doubled;
+} io_live_count;
+
+/* A device's microseconds in nanoseconds; 0 for more than RLF_TIME_MAX_NS. */
+int64_t io_live_time(uint64_t microseconds);
+
+/* Sets sequence, time_ns and the flag of a discontinuity of *out from the device's count and time.
+ * False when the frame is the last one again: it must not be given. A count or a time that goes
+ * back is a device that started anew. */
+bool io_live_count_frame(io_live_count *c, uint64_t number, int64_t time_ns, rlf_frame *out);
+
+/* For devices without a count: told from the gap of two times and the nominal interval. */
+bool io_live_count_time(io_live_count *c, int64_t time_ns, rlf_frame *out);
+
+/* Driver libraries that are opened when a camera is asked for: a program made without a vendor's
+ * development files still runs every camera whose library is installed. */
+
+/* A function of the library, and where its pointer goes in the caller's table. */
+typedef struct io_symbol {
+    const char *name;
+    size_t offset;
+    bool is_optional; /* its pointer stays NULL in versions that have none */
+} io_symbol;
+
+typedef struct io_library_def {
+    const char *variable;     /* of the environment: path of the library to take instead */
+    const char *const *names; /* tried in turn; NULL past the last */
+    const char *cure;         /* what to install */
+    const io_symbol *symbols;
+    int32_t symbol_count;
+} io_library_def;
+
+/* Fills the pointers of `table`. The library stays loaded: drivers leave threads behind. False with
+ * a line in out_reason that says what is missing and what to do. */
+bool io_library_load(const io_library_def *def, void *table, char *out_reason, size_t reason_size);
+
+/* ---- A lens model from the fields of view that a device or a file tells ---- */
+
+/* Angles in radians. The fields of view cover whole pixels, so the centre lies between the middle
+ * ones. False: they are no angles, and out is a typical PrimeSense camera (58 degrees). */
+bool io_camera_from_fov(int32_t width, int32_t height, double fov_x, double fov_y, rlf_camera *out);
+
+/* A lens that is known only by where it puts rays, as Relief's plumb_bob model. */
+
+typedef struct io_lens_sample {
+    double x, y; /* ray (x, y, 1) */
+    double u, v; /* its pixel */
+} io_lens_sample;
+
+/* Sets the camera's distortion to the k1 k2 p1 p2 k3 that fit best; fx, fy, cx, cy are given.
+ * Returns the largest distance that is left, pixels; infinity when nothing fits, and then the
+ * camera is left without distortion. */
+double io_lens_fit(const io_lens_sample *samples, int32_t count, rlf_camera *camera);
+
+/* Depth and colour pictures that a live device sends as two streams, paired by their times. */
+
+#define IO_STREAM_SLOTS 4
+
+/* A picture that arrived. */
+typedef struct io_stream_slot {
+    void *data;
+    int64_t time_ns; /* the device's own */
+    int64_t host_time_ns;
+    uint64_t sequence; /* of depth */
+} io_stream_slot;
+
+/* Call take after every push until it says no: then two depth pictures are the most that wait. */
+typedef struct io_stream_pair {
+    const rlf_rig *rig; /* borrowed: sizes */
+    double units_per_metre;
+    int64_t interval_ns;
+    uint32_t flags; /* rlf_frame_flag of every frame */
+    io_stream_slot depth[IO_STREAM_SLOTS], color[IO_STREAM_SLOTS];
+    int32_t shown_depth, shown_color;  /* what the last frame points to; -1 = nothing */
+    int32_t waiting[2], waiting_count; /* depth pictures not given yet, oldest first */
+    int32_t colors[2], color_count;    /* newest colour pictures, oldest first */
+    int64_t last_time_ns, last_index;  /* of the depth picture pushed last */
+    int64_t shift_ns;                  /* added to the device's time, which may start again */
+    uint64_t sequence;                 /* of the depth picture pushed last */
+    bool has_last, is_broken;          /* is_broken: the next frame does not follow */
+    rlf_source_status status;
+} io_stream_pair;
+
+/* Allocates the pictures. `rig` lives as long as the pair. */
+rlf_result io_stream_pair_init(io_stream_pair *pair, const rlf_rig *rig, double units_per_metre,
+                               double frames_per_second);
+/* A pair that was never made is allowed, when it is zero. */
+void io_stream_pair_finish(io_stream_pair *pair);
+/* Forgets all pictures that wait: the next frame does not follow the last one. */
+void io_stream_pair_clear(io_stream_pair *pair);
+
+/* Where the next picture goes: depth as rig->depth.width x height uint16_t, colour as RGBA. */
+uint16_t *io_stream_pair_depth(io_stream_pair *pair);
+rlf_image_rgba8 io_stream_pair_color(io_stream_pair *pair);
+
+/* The picture is there. `index` is the device's count of depth pictures; -1 = it has none, and lost
+ * ones are told by the time. A second picture of the same time is dropped. */
+void io_stream_pair_push_depth(io_stream_pair *pair, int64_t time_ns, int64_t index);
+void io_stream_pair_push_color(io_stream_pair *pair, int64_t time_ns);
+
+/* Fills *out when a frame is ready: its colour is within half a frame's time, or can no longer
+ * come. `is_last`: nothing more is waited for. */
+bool io_stream_pair_take(io_stream_pair *pair, bool is_last, rlf_frame *out);
+
+/* Copies a row of `width` pixels of 3 bytes as RGBA, turned round when `flips`. */
+void io_rgb_row(const uint8_t *rgb, int32_t width, bool flips, uint8_t *out_rgba);
+void io_depth_row(const uint16_t *depth, int32_t width, bool flips, uint16_t *out);
+
+#endif

@@ -1,0 +1,93 @@
+/* PNG to memory through libpng. Its errors come back by longjmp, so everything that must survive
+ * one lives in a struct outside the function that calls setjmp. */
+#include "io/picture/picture.h"
+#include "io/little.h"
+
+#include <png.h>
+#include <stdio.h>
+
+typedef struct writer {
+    const io_png_def *def;
+    io_byte_buffer *out;
+    png_structp png;
+    png_infop info;
+    char problem[128];
+} writer;
+
+static void on_error(png_structp png, png_const_charp message)
+{
+    writer *w = png_get_error_ptr(png);
+    snprintf(w->problem, sizeof(w->problem), "%s", message);
+    png_longjmp(png, 1);
+}
+
+static void on_warning(png_structp png, png_const_charp message)
+{
+    (void)png;
+    (void)message;
+}
+
+static void write_bytes(png_structp png, png_bytep data, size_t size)
+{
+    writer *w = png_get_io_ptr(png);
+    io_byte_buffer_add(w->out, data, size);
+    if (w->out->is_short) {
+        png_error(png, "out of memory");
+    }
+}
+
+static void flush_bytes(png_structp png)
+{
+    (void)png;
+}
+
+static void encode(writer *w)
+{
+    static const int types[4] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_RGBA,
+                                 PNG_COLOR_TYPE_RGB};
+    const io_png_def *d = w->def;
+    png_set_write_fn(w->png, w, write_bytes, flush_bytes);
+    png_set_IHDR(w->png, w->info, (png_uint_32)d->width, (png_uint_32)d->height,
+                 d->pixels == IO_PNG_GREY_U16 ? 16 : 8, types[d->pixels], PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_compression_level(w->png, d->level);
+    png_write_info(w->png, w->info);
+    if (d->pixels == IO_PNG_GREY_U16 && !IO_IS_BIG_ENDIAN) {
+        png_set_swap(w->png); /* PNG is big-endian */
+    }
+    if (d->pixels == IO_PNG_RGB) {
+        png_set_filler(w->png, 0, PNG_FILLER_AFTER);
+    }
+    for (int32_t y = 0; y < d->height; y++) {
+        png_write_row(w->png, (const uint8_t *)d->data + (ptrdiff_t)y * d->stride);
+    }
+    png_write_end(w->png, w->info);
+}
+
+/* Alone in its function, so that no local variable is live across the jump. */
+static bool encode_or_jump(writer *w)
+{
+    if (setjmp(png_jmpbuf(w->png)) != 0) {
+        return false;
+    }
+    encode(w);
+    return true;
+}
+
+rlf_result io_png_encode(const io_png_def *def, io_byte_buffer *out)
+{
+    writer w = {.def = def, .out = out};
+    const size_t size = out->size;
+    rlf_result result = RLF_OK;
+    w.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &w, on_error, on_warning);
+    w.info = w.png != NULL ? png_create_info_struct(w.png) : NULL;
+    if (w.info == NULL) {
+        result = rlf_fail(RLF_ERROR_MEMORY, "%s: out of memory while writing it", def->name);
+    } else if (!encode_or_jump(&w)) {
+        result = rlf_fail(out->is_short ? RLF_ERROR_MEMORY : RLF_ERROR_IO,
+                          "%s: libpng refuses to write it: %s", def->name, w.problem);
+    }
+    png_destroy_write_struct(&w.png, &w.info);
+    out->size = result == RLF_OK ? out->size : size;
+    return result;
+}
