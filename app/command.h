@@ -5,9 +5,11 @@
 #ifndef RELIEF_APP_COMMAND_H
 #define RELIEF_APP_COMMAND_H
 
+#include "relief/base.h"
 #include "settings.h"
 
 #include <signal.h>
+#include <stdbool.h>
 
 #define EXIT_DONE 0
 #define EXIT_FAILED 1
@@ -51,5 +53,44 @@ bool command_parse_list(const char *text, int64_t low, int64_t high, int capacit
                         int *out_count);
 /* "A:B", "A:", ":B" or "N" (= ":N"): frames A <= i < B. */
 bool command_parse_range(const char *text, int64_t *out_begin, int64_t *out_end);
+
+/* ---- the subcommands of `relief` ------------------------------------------------------------- */
+
+/* One per subcommand; argv[0] is the subcommand's name. */
+int run_main(int argc, char **argv);
+/* As `relief run` without a SOURCE; -1 where there is no window to choose one in. */
+int run_alone(void);
+int record_main(int argc, char **argv);
+int place_main(int argc, char **argv);
+int export_main(int argc, char **argv);
+int info_main(int argc, char **argv);
+int calibrate_main(int argc, char **argv);
+int list_main(int argc, char **argv);
+
+/* ---- standard input, output and error -------------------------------------------------------- */
+
+/* First of all: a stream that the caller closed becomes /dev/null, or the first file opened would
+ * take its number and get what is printed. */
+void streams_open(void);
+/* Last of all: the exit status, which is EXIT_FAILED after a line on stderr when not all that was
+ * printed could be written. */
+int streams_end(int status);
+
+/* ---- names ----------------------------------------------------------------------------------- */
+
+/* A file of one of the `endings`, words with blanks between. A name that ends as files of another
+ * kind do is wrong; one that ends as none does is right, and so are a device and a pipe. */
+bool output_name_is_right(const char *path, const char *endings);
+/* A file that only its ending tells from others: it has one of the `endings`, or is a device or a
+ * pipe. */
+bool output_name_has(const char *path, const char *endings);
+/* A folder: one that is there, or whose name does not end as a file's. */
+bool output_name_is_folder(const char *path);
+
+#define SUGGEST_TEXT 1024
+/* "did you mean 'depth'?" into `out`, which is returned; where no name is near, or `lists_all`,
+ * also "there are camera, depth, ...". `names` end with NULL; "" of none. Thread-safety: any. */
+const char *suggest_text(const char *text, const char *const *names, bool lists_all,
+                         char out[SUGGEST_TEXT]);
 
 #endif

@@ -4,8 +4,6 @@
 #include "command.h"
 #include "complete.h"
 #include "parts.h"
-#include "streams.h"
-#include "suggest.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -35,17 +33,6 @@ static const subcommand *find(const program *p, const char *name)
     return NULL;
 }
 
-static bool refuse_moved(const program *p, const char *name)
-{
-    for (const moved_command *m = p->moved; m != NULL && m->name != NULL; m++) {
-        if (strcmp(name, m->name) == 0) {
-            fprintf(stderr, "%s: '%s' is now `%s`\n", p->name, name, m->now);
-            return true;
-        }
-    }
-    return false;
-}
-
 static int refuse(const program *p, const char *name)
 {
     static const char *const options[] = {"--help", "--version", NULL};
@@ -55,7 +42,9 @@ static int refuse(const program *p, const char *name)
     for (const subcommand *s = p->commands; s->name != NULL && count <= COMMANDS_MAX; s++) {
         names[count++] = s->name;
     }
-    if (refuse_moved(p, name)) {
+    const char *now = options_now(name, NULL);
+    if (now != NULL) {
+        fprintf(stderr, "%s: '%s' is now `%s`\n", p->name, name, now);
         return EXIT_USAGE;
     }
     char nearest[SUGGEST_TEXT];
@@ -147,6 +136,7 @@ static int run(const program *p, int argc, char **argv)
 int dispatch(const program *p, int argc, char **argv)
 {
     command_program = p->name;
+    options_moved = p->moved;
     streams_open();
     return streams_end(run(p, argc, argv));
 }

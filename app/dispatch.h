@@ -2,21 +2,18 @@
 #ifndef RELIEF_APP_DISPATCH_H
 #define RELIEF_APP_DISPATCH_H
 
+#include "options.h"
+
 typedef struct subcommand {
     const char *name;
     int (*main)(int argc, char **argv); /* argv[0] is the subcommand's name; returns a status */
     const char *summary;
 } subcommand;
 
-/* A word that was a subcommand once, and what to type now. */
-typedef struct moved_command {
-    const char *name, *now;
-} moved_command;
-
 typedef struct program {
     const char *name, *purpose, *examples;
     const subcommand *commands; /* at most 32; a NULL name ends them */
-    const moved_command *moved; /* a NULL name ends them; NULL = none */
+    const moved_word *moved;    /* commands and options of earlier versions; NULL = none */
     /* Without any word: the exit status, or -1 to print the help. NULL = prints the help. */
     int (*run_alone)(void);
 } program;

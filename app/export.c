@@ -1,10 +1,8 @@
 /* `relief export`: arrays of every frame as NPY, meshes as PLY, true poses as CSV. */
 #include "command.h"
-#include "commands.h"
 #include "export_arrays.h"
 #include "options.h"
 #include "session.h"
-#include "suggest.h"
 
 #include <errno.h>
 #include <getopt.h>
@@ -45,21 +43,22 @@ static void print_help(void)
         printf("  %-20s %s%s\n", export_kinds[i].name, export_kinds[i].description,
                export_kinds[i].need == EXPORT_NEEDS_RENDER ? " (needs --scene)" : "");
     }
-    printf("  %-20s PLY: points, normals and triangles\n"
-           "  %-20s NNNNNN_LABEL.ply: the same, one file per region\n"
-           "  %-20s true_poses.csv: poses of the moving objects\n"
-           "true_* need a synthetic source and have the depth camera's full resolution.\n\n"
-           "  --frames A:B      frames A <= i < B (earlier ones are processed, not written)\n"
-           "  --scene NAME      put bodies in: a scene of `relief scenes`, or a file scene.json\n"
-           "  --profile NAME    live (default) or thesis\n"
-           "  --scale N         keep every N-th depth pixel (live 1, thesis 8)\n"
-           "  --set NAME=VALUE  a setting of the surface (see `relief settings`); any number\n"
-           "  --threads N       default: one per processor\n" COMMAND_PLUGIN_HELP "\n"
-           "examples:\n"
-           "  relief export synthetic:room --out out --what depth,normals,true_normals "
-           "--frames 0:50\n"
-           "  relief export path/to/clip --out out --what points,labels,mesh --profile thesis\n",
-           "mesh", "regions", "true_poses");
+    printf(
+        "  %-20s PLY: points, normals and triangles\n"
+        "  %-20s NNNNNN_LABEL.ply: the same, one file per region\n"
+        "  %-20s true_poses.csv: poses of the moving objects\n"
+        "true_* need a synthetic source and have the depth camera's full resolution.\n\n"
+        "  --frames A:B      frames A <= i < B (earlier ones are processed, not written)\n"
+        "  --scene NAME      put bodies in: a scene of `relief list scenes`, or a file scene.json\n"
+        "  --profile NAME    live (default) or thesis\n"
+        "  --scale N         keep every N-th depth pixel (live 1, thesis 8)\n"
+        "  --set NAME=VALUE  a setting of the surface (see `relief list settings`); any number\n"
+        "  --threads N       default: one per processor\n" COMMAND_PLUGIN_HELP "\n"
+        "examples:\n"
+        "  relief export synthetic:room --out out --what depth,normals,true_normals "
+        "--frames 0:50\n"
+        "  relief export path/to/clip --out out --what points,labels,mesh --profile thesis\n",
+        "mesh", "regions", "true_poses");
 }
 
 static bool take_range(const char *text, void *out)
@@ -84,19 +83,15 @@ static int parse(int argc, char **argv, export_options *o)
     o->frames.end = INT64_MAX;
     session_options *s = &o->session;
     const option_def options[] = {
-        {.name = "out", .kind = OPTION_FOLDER, .out = &o->out_folder},
+        ROW_FOLDER("out", &o->out_folder),
         {.name = "what", .kind = OPTION_TEXT, .out = &o->what, .names = kind_names()},
-        {.name = "frames",
-         .kind = OPTION_CHOICE,
-         .out = &o->frames,
-         .take = take_range,
-         .choices = "use A:B with A < B"},
+        ROW_CHOICE("frames", &o->frames, take_range, "use A:B with A < B"),
         {.name = "scene", .kind = OPTION_SCENE, .out = &s->scene_path},
         {.name = "profile", .kind = OPTION_PROFILE, .out = &s->profile},
-        {.name = "scale", .kind = OPTION_INT32, .out = &s->scale_factor, .low = 1, .high = 64},
-        {.name = "threads", .kind = OPTION_INT32, .out = &s->thread_count, .low = 1, .high = 64},
+        ROW_INT32("scale", &s->scale_factor, 1, 64),
+        ROW_INT32("threads", &s->thread_count, 1, 64),
         {.name = "set", .kind = OPTION_SET, .out = &s->settings},
-        {.name = "plugin", .kind = OPTION_PLUGIN},
+        ROW_PLUGIN,
         {0},
     };
     int status = options_parse("export", argc, argv, options, print_help);

@@ -1,5 +1,5 @@
 /* The `relief` command: what it can do. */
-#include "commands.h"
+#include "command.h"
 #include "dispatch.h"
 
 #include <stddef.h>
@@ -9,21 +9,42 @@ static const subcommand commands[] = {
     {"record", record_main, "record a camera, or turn a recording into another kind"},
     {"place", place_main, "put models of real things where the things are"},
     {"export", export_main, "write arrays of every frame: depth, normals, labels, truth, ..."},
-    {"fuse", fuse_main, "fuse the frames of a moving camera into a mesh and a map of the room"},
     {"info", info_main, "tell what a source is"},
     {"calibrate", calibrate_main, "lenses and poses of the cameras, from pictures of a chessboard"},
-    {"sources", sources_main, "list cameras, and the kinds of source that this build can open"},
-    {"scenes", scenes_main, "list the scenes that come with Relief, for --scene"},
-    {"settings", settings_main, "list the settings of the surface stage, for --set"},
+    {"list", list_main, "list sources, scenes or settings"},
     {NULL, NULL, NULL},
 };
 
-/* What measures Relief itself does nothing for a user. */
-static const moved_command moved[] = {
-    {"eval", "relief-lab eval"},
-    {"measure", "relief-lab measure"},
-    {"bench", "relief-lab bench"},
-    {NULL, NULL},
+/* Words of earlier versions. */
+static const moved_word moved[] = {
+    {"eval", NULL, "relief-lab eval"},
+    {"measure", NULL, "relief-lab measure, or relief info SOURCE --noise or --up"},
+    {"bench", NULL, "relief-lab bench"},
+    {"sources", NULL, "relief list sources"},
+    {"scenes", NULL, "relief list scenes"},
+    {"settings", NULL, "relief list settings"},
+    {"fuse", NULL, "relief run SOURCE --headless --mesh ROOM.ply"},
+    {"run", "picture-every", "--pictures DIR?every=N"},
+    {"run", "picture-at", "--pictures DIR?at=N+N"},
+    {"run", "picture-shrink", "--pictures DIR?shrink=N"},
+    {"run", "record-bodies", "--record FILE.mcap?bodies"},
+    {"run", "codec", "--record FILE.mcap?codec=NAME"},
+    {"run", "jpeg-quality", "--record FILE.mcap?jpeg-quality=N"},
+    {"run", "lossless", "--record FILE.mcap?lossless=color"},
+    {"run", "compression", "--record FILE.mcap?compression=NAME"},
+    {"run", "fullscreen", "--window full"},
+    {"run", "monitor", "--window monitor=N"},
+    {"run", "mirror", "--window mirror"},
+    {"run", "overlay", "--window text=on, off or full"},
+    {"run", "no-panel", "--window panel=off"},
+    {"run", "end", "--window end=NAME"},
+    {"run", "poses", "--camera source, or --camera moving for tracked ones"},
+    {"run", "grab", "--hands grab"},
+    {"run", "match-light", "--light auto"},
+    {"run", "no-match-light", "--light scene"},
+    {"run", "no-real-shade", "--shade near"},
+    {"run", "no-real-ambient", "--shade cast"},
+    {NULL, NULL, NULL},
 };
 
 int main(int argc, char **argv)

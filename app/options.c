@@ -2,11 +2,9 @@
 #include "options.h"
 
 #include "command.h"
-#include "output_name.h"
 #include "relief/io.h"
 #include "scene_files.h"
 #include "session.h"
-#include "suggest.h"
 
 #include <getopt.h>
 #include <stdio.h>
@@ -14,6 +12,9 @@
 
 #define NAME_SIZE 64
 #define LIST_SIZE 1024
+#define KEYS_MAX 16
+
+const moved_word *options_moved;
 
 static int take_int(const char *command, const option_def *o, const char *text)
 {
@@ -97,7 +98,9 @@ static int take_plugin(const char *path)
     return rlf_plugin_load(path) == RLF_OK ? -1 : command_failed();
 }
 
-static int take(const char *command, const option_def *o, const char *text)
+static int take_keys(const char *command, const option_def *o, char *text, const char *between);
+
+static int take_text(const char *command, const option_def *o, char *text)
 {
     switch (o->kind) {
     case OPTION_FLAG: *(bool *)o->out = true; return -1;
@@ -114,8 +117,72 @@ static int take(const char *command, const option_def *o, const char *text)
     case OPTION_CHOICE: return o->take(text, o->out) ? -1 : refuse_choice(command, o, text);
     case OPTION_FILE:
     case OPTION_FOLDER: return take_output(command, o, text);
+    case OPTION_KEYS: return take_keys(command, o, text, ",");
     }
     return -1;
+}
+
+/* The text, and the keys behind its "?". */
+static int take(const char *command, const option_def *o, char *text)
+{
+    char *keys = o->keys != NULL && o->kind != OPTION_KEYS ? strchr(text, '?') : NULL;
+    if (keys != NULL) {
+        *keys++ = '\0';
+    }
+    const int status = take_text(command, o, text);
+    return status < 0 && keys != NULL ? take_keys(command, o, keys, "&") : status;
+}
+
+static int refuse_key(const char *command, const option_def *o, const char *key)
+{
+    const char *names[KEYS_MAX + 1] = {NULL};
+    char nearest[SUGGEST_TEXT];
+    for (int i = 0; i < KEYS_MAX && o->keys[i].name != NULL; i++) {
+        names[i] = o->keys[i].name;
+    }
+    return command_usage(command, "--%s has no '%s': %s", o->name, key,
+                         suggest_text(key, names, true, nearest));
+}
+
+/* "key" or "key=value"; messages name the option and the key. */
+static int take_key(const char *command, const option_def *o, char *text)
+{
+    char name[NAME_SIZE];
+    char *equal = strchr(text, '=');
+    if (equal != NULL) {
+        *equal = '\0';
+    }
+    for (const option_def *k = o->keys; k->name != NULL; k++) {
+        if (strcmp(k->name, text) != 0) {
+            continue;
+        }
+        option_def named = *k;
+        named.name = name;
+        (void)snprintf(name, sizeof(name), "%s %s", o->name, k->name);
+        const bool is_flag = k->kind == OPTION_FLAG;
+        if (is_flag && equal != NULL && strcmp(equal + 1, "1") != 0) {
+            return command_usage(command, "--%s takes no value", name);
+        }
+        if (!is_flag && equal == NULL) {
+            return command_usage(command, "--%s=VALUE: the value is missing", name);
+        }
+        return take(command, &named, equal != NULL ? equal + 1 : text);
+    }
+    return refuse_key(command, o, text);
+}
+
+static int take_keys(const char *command, const option_def *o, char *text, const char *between)
+{
+    int status = -1;
+    for (char *rest = text; status < 0 && rest != NULL;) {
+        char *key = rest;
+        rest = strpbrk(key, between);
+        if (rest != NULL) {
+            *rest++ = '\0';
+        }
+        status = take_key(command, o, key);
+    }
+    return status;
 }
 
 /* What has no room is cut. */
@@ -123,6 +190,18 @@ static void add_word(char out[LIST_SIZE], const char *before, const char *word)
 {
     const size_t used = strlen(out);
     (void)snprintf(out + used, LIST_SIZE - used, "%s%s", before, word);
+}
+
+const char *options_now(const char *command, const char *option)
+{
+    for (const moved_word *m = options_moved; m != NULL && m->command != NULL; m++) {
+        const bool is_same = option == NULL || m->option == NULL ? option == m->option
+                                                                 : strcmp(m->option, option) == 0;
+        if (is_same && strcmp(m->command, command) == 0) {
+            return m->now;
+        }
+    }
+    return NULL;
 }
 
 /* The one that is near, or those that begin so. */
@@ -135,6 +214,10 @@ static int refuse_option(const char *command, const option_def *options, const c
     int count = 0;
     (void)snprintf(name, sizeof(name), "%.*s", (int)strcspn(argument, "="), argument);
     const char *word = name + strspn(name, "-");
+    const char *now = options_now(command, word);
+    if (now != NULL) {
+        return command_usage(command, "%s is now %s", name, now);
+    }
     for (int i = 0; options[i].name != NULL; i++) {
         add_word(all, " ", options[i].name);
         if (strncmp(options[i].name, word, strlen(word)) == 0) {
@@ -172,7 +255,7 @@ static const option_def *find_option(const option_def *options, const char *argu
 static int take_option(const char *command, int argc, char **argv, const option_def *options,
                        int *at)
 {
-    const char *argument = argv[*at];
+    char *argument = argv[*at];
     if (argument[1] != '-') {
         return command_usage(command, "unknown option '-%c'", argument[1]);
     }
@@ -180,7 +263,7 @@ static int take_option(const char *command, int argc, char **argv, const option_
     if (o == NULL) {
         return refuse_option(command, options, argument);
     }
-    const char *equal = strchr(argument, '=');
+    char *equal = strchr(argument, '=');
     if (o->kind == OPTION_FLAG && equal != NULL) {
         return command_usage(command, "--%s takes no value", o->name);
     }

@@ -1,6 +1,5 @@
 /* `relief place`: poses of known objects from picked points, without a window. */
 #include "command.h"
-#include "commands.h"
 #include "options.h"
 #include "picture_file.h"
 #include "session.h"
@@ -60,17 +59,13 @@ static int parse(int argc, char **argv, place_options *o)
     *o = (place_options){.session = session_options_default(), .frames = 15};
     const option_def options[] = {
         {.name = "scene", .kind = OPTION_SCENE, .out = &o->session.scene_path},
-        {.name = "object", .kind = OPTION_TEXT, .out = &o->object},
-        {.name = "pick", .kind = OPTION_CHOICE, .out = o, .take = take_pick, .choices = ""},
-        {.name = "no-refine", .kind = OPTION_FLAG, .out = &o->keeps_picks},
-        {.name = "frames", .kind = OPTION_INT32, .out = &o->frames, .low = 1, .high = 100000},
-        {.name = "out", .kind = OPTION_FILE, .out = &o->out_path, .choices = ".json"},
-        {.name = "picture", .kind = OPTION_FILE, .out = &o->picture_path, .choices = ".png"},
-        {.name = "threads",
-         .kind = OPTION_INT32,
-         .out = &o->session.thread_count,
-         .low = 1,
-         .high = 64},
+        ROW_TEXT("object", &o->object),
+        ROW_CHOICE("pick", o, take_pick, ""),
+        ROW_FLAG("no-refine", &o->keeps_picks),
+        ROW_INT32("frames", &o->frames, 1, 100000),
+        ROW_FILE("out", &o->out_path, ".json"),
+        ROW_FILE("picture", &o->picture_path, ".png"),
+        ROW_INT32("threads", &o->session.thread_count, 1, 64),
         {0},
     };
     int status = options_parse("place", argc, argv, options, print_help);

@@ -1,7 +1,6 @@
 /* `relief record`: any source into a file or a folder. */
 #define _POSIX_C_SOURCE 200809L
 #include "command.h"
-#include "commands.h"
 #include "options.h"
 #include "recorder.h"
 
@@ -56,11 +55,11 @@ static int parse(int argc, char **argv, record_options *o)
     const int32_t quality = o->recorder.def.jpeg_quality;
     o->recorder.def.jpeg_quality = -1; /* not said */
     const option_def options[] = {
-        {.name = "frames", .kind = OPTION_INT64, .out = &o->frames, .low = 1, .high = 1000000000},
-        {.name = "seconds", .kind = OPTION_INT64, .out = &o->seconds, .low = 1, .high = 1000000000},
+        ROW_INT64("frames", &o->frames, 1, 1000000000),
+        ROW_INT64("seconds", &o->seconds, 1, 1000000000),
         RECORDER_OPTIONS(&o->recorder),
-        {.name = "quiet", .kind = OPTION_FLAG, .out = &o->is_quiet},
-        {.name = "plugin", .kind = OPTION_PLUGIN},
+        ROW_FLAG("quiet", &o->is_quiet),
+        ROW_PLUGIN,
         {0},
     };
     const int status = options_parse("record", argc, argv, options, print_help);

@@ -3,7 +3,6 @@
 #include "recorder.h"
 
 #include "command.h"
-#include "output_name.h"
 #include "record_queue.h"
 
 #include <stdio.h>

@@ -31,25 +31,10 @@ recorder_options recorder_options_default(void);
 
 /* Rows of an option table that set the codec, the quality and the compression. */
 #define RECORDER_OPTIONS(options)                                                                  \
-    {.name = "codec",                                                                              \
-     .kind = OPTION_CHOICE,                                                                        \
-     .out = (options),                                                                             \
-     .take = recorder_take_codec,                                                                  \
-     .choices = "use rvl or png"},                                                                 \
-        {.name = "jpeg-quality",                                                                   \
-         .kind = OPTION_INT32,                                                                     \
-         .out = &(options)->def.jpeg_quality,                                                      \
-         .low = 1,                                                                                 \
-         .high = 100},                                                                             \
-        {.name = "lossless",                                                                       \
-         .kind = OPTION_CHOICE,                                                                    \
-         .out = (options),                                                                         \
-         .take = recorder_take_color,                                                              \
-         .choices = "use color"},                                                                  \
-    {                                                                                              \
-        .name = "compression", .kind = OPTION_CHOICE, .out = (options),                            \
-        .take = recorder_take_compression, .choices = "use zstd, lz4 or none"                      \
-    }
+    ROW_CHOICE("codec", (options), recorder_take_codec, "use rvl or png"),                         \
+        ROW_INT32("jpeg-quality", &(options)->def.jpeg_quality, 1, 100),                           \
+        ROW_CHOICE("lossless", (options), recorder_take_color, "use color"),                       \
+        ROW_CHOICE("compression", (options), recorder_take_compression, "use zstd, lz4 or none")
 
 /* "FILE.mcap", or "FOLDER/". `choices` of an option that takes one. */
 #define RECORDER_PATH "end the name in .mcap, or in / for a folder"

@@ -1,13 +1,12 @@
 /* `relief run`: frames through the whole pipeline, in a window or headless. */
 #include "command.h"
-#include "commands.h"
 #include "parts.h"
 #include "run.h"
 #ifdef RLF_HAVE_GL
 #include "relief/gl.h"
 #endif
 #ifdef RLF_HAVE_VIEWER
-#include "start_page.h"
+#include "window_choices.h"
 #endif
 
 #include <stdio.h>
@@ -100,7 +99,7 @@ static rlf_result run_headless(const run_options *o, session *s, run_output *out
                         "%s: has no frame with depth: check what `relief info` says of it",
                         o->session.source);
     }
-    return command_interrupted ? RLF_OK : run_output_check(output);
+    return command_interrupted ? RLF_OK : run_output_end(output);
 }
 
 #ifndef RLF_HAVE_VIEWER
@@ -131,17 +130,15 @@ static rlf_result run_frames(run_options *o, session *s, run_output *output)
     return run_window(o, s, output);
 }
 
-/* Also after Ctrl-C. */
-static rlf_result save_map(const run_options *o, session *s)
+static void print_summary(const run_options *o, session *s, const run_output *output,
+                          const recorder_status *recorded)
 {
-    if (o->save_map_path == NULL) {
-        return RLF_OK;
-    }
-    const rlf_map *map = rlf_pipeline_get_map(s->pipeline);
-    return map != NULL ? rlf_map_write_file(map, o->save_map_path)
-                       : rlf_fail(RLF_ERROR_INVALID,
-                                  "--save-map: the camera has not moved, so there is no map; add "
-                                  "--camera moving");
+    FILE *words = run_output_words(&o->output);
+    const char *renderer = o->use_gl ? "renderer gl" : "renderer soft";
+    const rlf_source_status frames = rlf_source_get_status(s->source);
+    run_output_print_summary(output, o->is_headless ? renderer : "in a window", &frames);
+    run_room_print(&output->room, &o->room, rlf_pipeline_get_map(s->pipeline), words);
+    recorder_print_summary(words, &o->session.record, recorded);
 }
 
 static int run_session(run_options *o, session *s)
@@ -153,7 +150,7 @@ static int run_session(run_options *o, session *s)
     }
     static run_output output; /* large: timing samples */
     /* Before the run: afterwards the room would be lost. */
-    rlf_result result = o->save_map_path != NULL ? rlf_file_check(o->save_map_path) : RLF_OK;
+    rlf_result result = run_room_check(&o->room);
     if (result == RLF_OK) {
         result = run_output_open(&o->output, info, total, &output);
     }
@@ -161,7 +158,10 @@ static int run_session(run_options *o, session *s)
     if (result == RLF_OK) {
         result = run_frames(o, s, &output);
     }
-    result = result == RLF_OK ? save_map(o, s) : result;
+    const rlf_map *map = rlf_pipeline_get_map(s->pipeline);
+    if (result == RLF_OK) {
+        result = run_room_write(&output.room, &o->room, map, &rlf_source_get_info(s->source)->rig);
+    }
     int status = result == RLF_OK ? EXIT_DONE : command_failed();
     if (status == EXIT_DONE && command_interrupted && output.frames == 0) {
         status = command_stopped("run");
@@ -178,11 +178,9 @@ static int run_session(run_options *o, session *s)
                 (unsigned long long)rlf_world_hash(rlf_pipeline_get_world(s->pipeline)));
     }
     if (status == EXIT_DONE && !o->output.is_quiet) {
-        const char *renderer = o->use_gl ? "renderer gl" : "renderer soft";
-        const rlf_source_status frames = rlf_source_get_status(s->source);
-        run_output_print_summary(&output, o->is_headless ? renderer : "in a window", &frames);
-        recorder_print_summary(run_output_words(&o->output), &o->session.record, &recorded);
+        print_summary(o, s, &output, &recorded);
     }
+    run_room_close(&output.room);
     return status == EXIT_DONE ? command_done() : status;
 }
 
@@ -190,7 +188,8 @@ static bool writes_something(const run_options *o)
 {
     const run_output_options *out = &o->output;
     return out->video_path != NULL || out->picture_folder != NULL || out->log_folder != NULL ||
-           o->session.record.path != NULL || o->save_map_path != NULL || out->print_hash;
+           o->session.record.path != NULL || o->room.mesh_path != NULL ||
+           o->room.map_path != NULL || out->print_hash;
 }
 
 /* What is written or counted ends with the recording, unless one asks for more. */
@@ -209,6 +208,11 @@ static int run_chosen(run_options *o)
     choose_end(o);
     o->session.record.is_switched = !o->is_headless;
     o->output.scene_path = o->session.scene_path;
+    o->output.room = &o->room;
+    o->room.source = o->session.source;
+    o->room.has_source_poses = o->session.poses == RLF_POSES_SOURCE;
+    o->session.enable_render = !o->is_headless || o->room.mesh_path == NULL ||
+                               o->output.video_path != NULL || o->output.picture_folder != NULL;
     session s;
     if (session_open(&o->session, &s) != RLF_OK) {
         return command_not_opened("run");

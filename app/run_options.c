@@ -1,63 +1,49 @@
 /* The options of `relief run`, and its help. */
 #include "command.h"
 #include "options.h"
-#include "output_name.h"
 #include "run.h"
 
 #include <getopt.h>
 #include <stdio.h>
 #include <string.h>
 
-static void print_camera_help(void)
-{
-    printf("  --camera NAME         auto (default): fixed; moving while the view as a whole does,\n"
-           "                        until it stands for 2 s; moving: tracked against a map from "
-           "the first frame;\n"
-           "                        fixed: never tracked\n"
-           "  --poses NAME          of a moving camera: tracked (default), or source: its own\n"
-           "  --map FILE.map        a known room, as relief fuse --save writes it: the camera is\n"
-           "                        looked for in it\n"
-           "  --save-map FILE.map   at the end: the room that a moving camera has seen, for --map\n"
-           "  --log DIR             frames.csv, bodies.csv, contacts.csv, hands.csv, and\n"
-           "                        trajectory.txt when the camera moves\n"
-           "  --hands               look for hands, for hands.csv\n"
-           "  --grab                real fingers can hold bodies (experimental)\n");
-}
-
-static void print_help(void)
+static void print_output_help(void)
 {
     printf(
-        "usage: relief run [SOURCE] [OPTIONS]\n\n"
-        "Runs a source with virtual bodies that collide with what the camera sees.\n"
-        "SOURCE: synthetic:room or a folder with a clip (see `relief sources`); without one the\n"
-        "window lists cameras and recent recordings.\n\n"
-        "  --scene NAME          bodies and gravity: a scene that `relief scenes` lists, or a "
-        "file\n"
-        "                        scene.json; default: two thrown cubes\n"
-        "  --profile NAME        live (default) or thesis\n"
-        "  --renderer NAME       soft or gl; default: gl in a window, soft headless\n"
-        "  --headless            no window: as fast as the machine can, every frame\n"
-        "  --end WHAT            in the window, after a recording: loop (default), hold (bodies\n"
-        "                        fall on over the last frame) or stop (default where frames are\n"
-        "                        written or counted)\n"
-        "  --fullscreen          the picture alone, without text\n"
-        "  --monitor N           the window and its full screen on the N-th monitor, from 1\n"
-        "  --mirror              as in a mirror: the window, not what is written\n"
-        "  --overlay NAME        text over the window's picture: on, off, or full: also in full\n"
-        "                        screen; never in what is written\n"
-        "  --no-panel            the window without its panel\n"
-        "  --frames N            stop after N frames\n"
         "  --video FILE          .mp4, .y4m, - for Y4M on standard output, or a virtual camera:\n"
         "                        pipewire:NAME, or /dev/videoN of v4l2loopback\n"
-        "  --pictures DIR        PNG pictures NNNNNN.png, one every --picture-every frames\n"
-        "  --picture-every N     default 30\n"
-        "  --picture-at LIST     instead: these frames alone, e.g. 60,92\n"
-        "  --picture-shrink N    average N x N pixels of a picture into one\n"
-        "  --record FILE.mcap    what the source gives, for playing it again (see `relief\n"
-        "                        record`, whose --codec, --jpeg-quality, --lossless and\n"
-        "                        --compression work here, too)\n"
-        "  --record-bodies       the bodies' poses, too, as frames of /tf\n");
-    print_camera_help();
+        "  --pictures DIR        PNG pictures NNNNNN.png, one every 30 frames; keys:\n"
+        "                        DIR?every=10, ?at=60+92+last (these frames alone), ?shrink=2\n"
+        "                        (average 2 x 2 pixels into one), with & between\n"
+        "  --record FILE.mcap    what the source gives, for playing it again; keys as the\n"
+        "                        options of `relief record`: FILE.mcap?codec=png, and ?bodies:\n"
+        "                        the bodies' poses, too, as frames of /tf\n"
+        "  --log DIR             frames.csv, bodies.csv, contacts.csv, hands.csv, and\n"
+        "                        trajectory.txt when the camera moves\n"
+        "  --mesh FILE           at the end: the room that a moving camera has seen, .ply, .obj\n"
+        "                        or .glb; keys: voxel=MM (2 to 50, default 6), memory=MB\n"
+        "                        (default 288; the farthest leaves first), weight=N (leaves out\n"
+        "                        what was seen less: a frame from near adds 16, one from far 1;\n"
+        "                        default 32, less for fewer than 128 frames)\n"
+        "  --save-map FILE.map   at the end: that room for --map; keys voxel, memory\n");
+}
+
+static void print_camera_help(void)
+{
+    printf(
+        "  --camera NAME         auto (default): fixed; moving while the view as a whole does,\n"
+        "                        until it stands for 2 s; moving: tracked against a map from\n"
+        "                        the first frame, the default of --mesh and --save-map;\n"
+        "                        source: moving, by the source's own poses (groundtruth.txt);\n"
+        "                        fixed: never tracked\n"
+        "  --map FILE.map        a known room, as --save-map writes it: the camera is looked for\n"
+        "                        in it\n"
+        "  --hands NAME          look (for hands.csv), or grab: and real fingers can hold bodies\n"
+        "                        (experimental)\n");
+}
+
+static void print_view_help(void)
+{
     printf(
         "  --view NAME[,NAME...] camera (default), depth, normals, mesh, regions, foreground,\n"
         "                        background, velocity, thickness, reason, points, contacts,\n"
@@ -66,28 +52,53 @@ static void print_help(void)
         "  --legend              what the colours of every view mean, with units, in the picture\n"
         "  --orbit YAW,PITCH[,ZOOM]   where points and map are seen from: degrees to the\n"
         "                        right and up, and the distance, 1 being the camera's\n"
-        "  --gravity X,Y,Z       m/s^2 to the right, down and forward, in place of the\n"
-        "                        scene's; or floor: down is where the first frame's floor,\n"
-        "                        tables and walls say; clips' default if the scene says none\n"
-        "  --light X,Y,Z         where the light shines to: right, down, forward\n"
-        "  --match-light         bodies as dark and as tinted as the camera's picture, and\n"
-        "                        lit from where its shading says; live's default for clips\n"
-        "  --no-match-light      not so\n"
-        "  --no-real-shade       real things keep no light from bodies\n"
-        "  --no-real-ambient     bodies are not darker where they are close to real surfaces\n"
-        "  --occlusion NAME      soft (live's), hard, thesis (thesis's) or off\n"
-        "  --scale N             keep every N-th depth pixel (live 1, thesis 8)\n"
-        "  --set NAME=VALUE      a setting of the surface (see `relief settings`); any number\n"
-        "  --threads N           default: one per processor; results do not depend on it\n"
-        "  --plugin FILE         a plug-in that brings a camera or a format; any number\n"
-        "  --hash                print the hash of all body states at the end\n"
-        "  --quiet               no progress and no summary\n\n"
-        "examples:\n"
-        "  relief run synthetic:room\n"
-        "  relief run synthetic:room --headless --frames 200 --video out.mp4 --log log\n"
-        "  relief run synthetic:thesis --profile thesis --headless --pictures pictures\n"
-        "  relief run path/to/clip --headless --view normals --video - | mpv -\n"
-        "  relief run synthetic:room?path=orbit --headless --log log --pictures pictures\n");
+        "  --light NAME          auto: bodies as dark and as tinted as the camera's picture, and\n"
+        "                        lit from where its shading says (live's default for clips);\n"
+        "                        scene: not so; or X,Y,Z: it shines to right, down, forward;\n"
+        "                        may be given twice\n"
+        "  --shade NAME          of real things on bodies: on (default), cast (their shadows\n"
+        "                        alone), near (darker close to them alone) or off\n"
+        "  --occlusion NAME      soft (live's), hard, thesis (thesis's) or off\n");
+}
+
+static void print_help(void)
+{
+    printf(
+        "usage: relief run [SOURCE] [OPTIONS]\n\n"
+        "Runs a source with virtual bodies that collide with what the camera sees.\n"
+        "SOURCE: synthetic:room or a folder with a clip (see `relief list sources`); without one\n"
+        "the window lists cameras and recent recordings.\n\n"
+        "  --scene NAME          bodies and gravity: a scene that `relief list scenes` tells, or "
+        "a\n"
+        "                        file scene.json; default: two thrown cubes\n"
+        "  --profile NAME        live (default) or thesis\n"
+        "  --renderer NAME       soft or gl; default: gl in a window, soft headless\n"
+        "  --headless            no window: as fast as the machine can, every frame\n"
+        "  --window LIST         full (the picture alone), monitor=N (from 1), mirror, text=on, "
+        "off\n"
+        "                        or full (also in full screen), panel=off, and after a recording\n"
+        "                        end=loop (default), hold (bodies fall on over the last frame) or\n"
+        "                        stop (default where frames are written or counted)\n"
+        "  --frames N            stop after N frames\n");
+    print_output_help();
+    print_camera_help();
+    print_view_help();
+    printf("  --gravity X,Y,Z       m/s^2 to the right, down and forward, in place of the\n"
+           "                        scene's; or floor: down is where the first frame's floor,\n"
+           "                        tables and walls say; clips' default if the scene says none\n"
+           "  --scale N             keep every N-th depth pixel (live 1, thesis 8)\n"
+           "  --set NAME=VALUE      a setting of the surface (see `relief list settings`); any "
+           "number\n"
+           "  --threads N           default: one per processor; results do not depend on it\n"
+           "  --plugin FILE         a plug-in that brings a camera or a format; any number\n"
+           "  --hash                print the hash of all body states at the end\n"
+           "  --quiet               no progress and no summary\n\n"
+           "examples:\n"
+           "  relief run synthetic:room\n"
+           "  relief run synthetic:room --headless --frames 200 --video out.mp4 --log log\n"
+           "  relief run path/to/clip --headless --view normals --video - | mpv -\n"
+           "  relief run path/to/clip --headless --mesh room.glb --log log\n"
+           "  relief run synthetic:room --headless --frames 93 --pictures 'pictures?at=60+92'\n");
 }
 
 static bool take_renderer(const char *text, void *out)
@@ -122,16 +133,44 @@ static bool take_views(const char *text, void *out)
     return false;
 }
 
+/* Its colour and where it comes from: two answers, so it may be given twice. */
 static bool take_light(const char *text, void *out)
 {
     session_options *s = out;
     rlf_vec3 *l = &s->light_direction;
     char rest;
+    const bool is_auto = strcmp(text, "auto") == 0, is_scene = strcmp(text, "scene") == 0;
+    if (is_auto || is_scene) {
+        s->matches_light = is_auto;
+        s->keeps_light = is_scene;
+        return true;
+    }
     bool is_good = sscanf(text, "%lf,%lf,%lf%c", &l->x, &l->y, &l->z, &rest) == 3 &&
                    rlf_vec3_is_finite(*l) && rlf_length(*l) > 1e-6 && rlf_length(*l) < 1e6;
     *l = is_good ? rlf_normalize(*l) : *l;
     s->is_light_set = is_good;
     return is_good;
+}
+
+/* Index of a word, -1 for none. */
+static int find_word(const char *text, const char *const *words, int count)
+{
+    for (int i = 0; i < count; i++) {
+        if (strcmp(text, words[i]) == 0) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+static bool take_shade(const char *text, void *out)
+{
+    static const char *const names[4] = {"on", "cast", "near", "off"};
+    session_options *s = out;
+    const int found = find_word(text, names, 4);
+    s->no_real_ambient = found == 1 || found == 3;
+    s->no_real_shade = found == 2 || found == 3;
+    return found >= 0;
 }
 
 static bool take_gravity(const char *text, void *out)
@@ -148,22 +187,23 @@ static bool take_gravity(const char *text, void *out)
 
 static bool take_camera(const char *text, void *out)
 {
-    static const char *const names[3] = {"fixed", "moving", "auto"};
-    rlf_camera_mode *mode = out;
-    for (int i = 0; i < 3; i++) {
-        if (strcmp(text, names[i]) == 0) {
-            *mode = (rlf_camera_mode)i;
-            return true;
-        }
-    }
-    return false;
+    static const char *const names[4] = {"fixed", "moving", "auto", "source"};
+    session_options *s = out;
+    const int found = find_word(text, names, 4);
+    s->is_camera_set = true;
+    s->poses = found == 3 ? RLF_POSES_SOURCE : RLF_POSES_TRACKED;
+    s->camera = found == 3 ? RLF_CAMERA_MOVING : (rlf_camera_mode)found;
+    return found >= 0;
 }
 
-static bool take_poses(const char *text, void *out)
+static bool take_hands(const char *text, void *out)
 {
-    rlf_pose_origin *poses = out;
-    *poses = strcmp(text, "source") == 0 ? RLF_POSES_SOURCE : RLF_POSES_TRACKED;
-    return *poses == RLF_POSES_SOURCE || strcmp(text, "tracked") == 0;
+    static const char *const names[2] = {"look", "grab"};
+    session_options *s = out;
+    const int found = find_word(text, names, 2);
+    s->enable_hands = true;
+    s->enable_grab = found == 1;
+    return found >= 0;
 }
 
 static bool take_video(const char *text, void *out)
@@ -189,26 +229,50 @@ static bool take_overlay(const char *text, void *out)
     return o->hides_overlay || o->shows_overlay || strcmp(text, "on") == 0;
 }
 
+static bool take_panel(const char *text, void *out)
+{
+    run_window_options *o = out;
+    o->hides_panel = strcmp(text, "off") == 0;
+    return o->hides_panel || strcmp(text, "on") == 0;
+}
+
 static bool take_occlusion(const char *text, void *out)
 {
     static const char *const names[4] = {"hard", "thesis", "off", "soft"};
     session_options *s = out;
-    for (int i = 0; i < 4; i++) {
-        if (strcmp(text, names[i]) == 0) {
-            s->occlusion = (rlf_occlusion)i;
-            s->is_occlusion_set = true;
-            return true;
-        }
-    }
-    return false;
+    const int found = find_word(text, names, 4);
+    s->occlusion = (rlf_occlusion)found;
+    s->is_occlusion_set = found >= 0;
+    return found >= 0;
 }
 
-/* "60,92" into the run_output_options. */
+/* "60+92+last" into the run_output_options. */
 static bool take_picture_frames(const char *text, void *out)
 {
     run_output_options *o = out;
-    return command_parse_list(text, 0, INT64_C(1000000000), RUN_PICTURES_MAX, o->picture_at,
+    char list[256];
+    const size_t length = strlen(text), last = strlen("last");
+    o->keeps_last = length >= last && strcmp(text + length - last, "last") == 0;
+    const size_t kept = o->keeps_last ? length - last : length;
+    if (kept >= sizeof list) {
+        return false;
+    }
+    (void)snprintf(list, sizeof list, "%.*s", (int)kept, text);
+    if (o->keeps_last && kept > 0 && list[kept - 1] == '+') {
+        list[kept - 1] = '\0';
+    }
+    for (char *plus = strchr(list, '+'); plus != NULL; plus = strchr(plus, '+')) {
+        *plus = ',';
+    }
+    return (o->keeps_last && list[0] == '\0') ||
+           command_parse_list(list, 0, INT64_C(1000000000), RUN_PICTURES_MAX, o->picture_at,
                               &o->picture_count);
+}
+
+static bool take_mesh(const char *text, void *out)
+{
+    *(const char **)out = text;
+    return rlf_map_mesh_check_name(text) == RLF_OK;
 }
 
 /* Of all views, ended with NULL. */
@@ -220,138 +284,112 @@ static const char *const *view_names(void)
     }
     return names;
 }
-/* Rows of the table that are for the window alone. */
-#define WINDOW_OPTIONS(o)                                                                          \
-    {.name = "end",                                                                                \
-     .kind = OPTION_CHOICE,                                                                        \
-     .out = (o),                                                                                   \
-     .take = take_end,                                                                             \
-     .choices = "use loop, hold or stop"},                                                         \
-        {.name = "fullscreen", .kind = OPTION_FLAG, .out = &(o)->window.is_fullscreen},            \
-        {.name = "monitor",                                                                        \
-         .kind = OPTION_INT32,                                                                     \
-         .out = &(o)->window.monitor,                                                              \
-         .low = 1,                                                                                 \
-         .high = 16},                                                                              \
-        {.name = "mirror", .kind = OPTION_FLAG, .out = &(o)->window.is_mirrored},                  \
-        {.name = "overlay",                                                                        \
-         .kind = OPTION_CHOICE,                                                                    \
-         .out = &(o)->window,                                                                      \
-         .take = take_overlay,                                                                     \
-         .choices = "use on, off or full"},                                                        \
+
+/* ---- the table ------------------------------------------------------------------------------ */
+
+/* Of --window. */
+#define WINDOW_KEYS(o)                                                                             \
     {                                                                                              \
-        .name = "no-panel", .kind = OPTION_FLAG, .out = &(o)->window.hides_panel                   \
+        ROW_FLAG("full", &(o)->window.is_fullscreen),                                              \
+            ROW_INT32("monitor", &(o)->window.monitor, 1, 16),                                     \
+            ROW_FLAG("mirror", &(o)->window.is_mirrored),                                          \
+            ROW_CHOICE("text", &(o)->window, take_overlay, "use on, off or full"),                 \
+            ROW_CHOICE("panel", &(o)->window, take_panel, "use on or off"),                        \
+            ROW_CHOICE("end", (o), take_end, "use loop, hold or stop"), {0},                       \
     }
 
-/* Rows of the table that say which pictures are kept. */
-#define PICTURE_OPTIONS(out)                                                                       \
-    {.name = "pictures", .kind = OPTION_FOLDER, .out = &(out)->picture_folder},                    \
-        {.name = "picture-every",                                                                  \
-         .kind = OPTION_INT64,                                                                     \
-         .out = &(out)->picture_every,                                                             \
-         .low = 1,                                                                                 \
-         .high = 1000000},                                                                         \
-        {.name = "picture-at",                                                                     \
-         .kind = OPTION_CHOICE,                                                                    \
-         .out = (out),                                                                             \
-         .take = take_picture_frames,                                                              \
-         .choices = "use up to 16 frame numbers"},                                                 \
+/* Of --pictures. */
+#define PICTURE_KEYS(o)                                                                            \
     {                                                                                              \
-        .name = "picture-shrink", .kind = OPTION_INT32, .out = &(out)->picture_shrink, .low = 1,   \
-        .high = 64                                                                                 \
+        ROW_INT64("every", &(o)->picture_every, 1, 1000000),                                       \
+            ROW_CHOICE("at", (o), take_picture_frames,                                             \
+                       "use up to 16 frame numbers with + between, and last"),                     \
+            ROW_INT32("shrink", &(o)->picture_shrink, 1, 64), {0},                                 \
     }
 
-/* Rows of the table that say where the camera is. */
-#define CAMERA_OPTIONS(s)                                                                          \
-    {.name = "camera",                                                                             \
-     .kind = OPTION_CHOICE,                                                                        \
-     .out = &(s)->camera,                                                                          \
-     .take = take_camera,                                                                          \
-     .choices = "use fixed, moving or auto"},                                                      \
-        {.name = "poses",                                                                          \
+/* Of --mesh and --save-map. */
+#define MAP_KEYS(o)                                                                                \
+    ROW_INT32("voxel", &(o)->session.voxel_mm, 2, 50),                                             \
+        ROW_INT32("memory", &(o)->session.map_memory_mb, 8, RLF_MAP_MEMORY_MOST_MB)
+
+/* Rows about what is written. */
+#define OUTPUT_OPTIONS(o)                                                                          \
+    ROW_CHOICE("video", &(o)->output.video_path, take_video,                                       \
+               "end the name in .mp4 or .y4m, or give - for Y4M on standard output, "              \
+               "pipewire:NAME or /dev/videoN"),                                                    \
+        {.name = "pictures",                                                                       \
+         .kind = OPTION_FOLDER,                                                                    \
+         .out = &(o)->output.picture_folder,                                                       \
+         .keys = picture_keys},                                                                    \
+        {.name = "record",                                                                         \
          .kind = OPTION_CHOICE,                                                                    \
-         .out = &(s)->poses,                                                                       \
-         .take = take_poses,                                                                       \
-         .choices = "use tracked or source"},                                                      \
+         .out = &(o)->session.record,                                                              \
+         .take = recorder_take_path,                                                               \
+         .choices = RECORDER_PATH,                                                                 \
+         .keys = record_keys},                                                                     \
+        ROW_FOLDER("log", &(o)->output.log_folder),                                                \
+        {.name = "mesh",                                                                           \
+         .kind = OPTION_CHOICE,                                                                    \
+         .out = &(o)->room.mesh_path,                                                              \
+         .take = take_mesh,                                                                        \
+         .choices = "end the name in .ply, .obj or .glb",                                          \
+         .keys = mesh_keys},                                                                       \
     {                                                                                              \
-        .name = "map", .kind = OPTION_TEXT, .out = &(s)->map_path                                  \
+        .name = "save-map", .kind = OPTION_FILE, .out = &(o)->room.map_path, .choices = ".map",    \
+        .keys = map_keys                                                                           \
     }
+
+/* Rows about what bodies meet. */
+#define WORLD_OPTIONS(s)                                                                           \
+    {.name = "scene", .kind = OPTION_SCENE, .out = &(s)->scene_path},                              \
+        {.name = "profile", .kind = OPTION_PROFILE, .out = &(s)->profile},                         \
+        ROW_CHOICE("gravity", (s), take_gravity, "use floor, or X,Y,Z of up to 1000 m/s^2"),       \
+        ROW_CHOICE("camera", (s), take_camera, "use auto, fixed, moving or source"),               \
+        ROW_TEXT("map", &(s)->map_path), ROW_CHOICE("hands", (s), take_hands, "use look or grab"), \
+        ROW_INT32("scale", &(s)->scale_factor, 1, 64),                                             \
+        {.name = "set", .kind = OPTION_SET, .out = &(s)->settings},                                \
+        ROW_INT32("threads", &(s)->thread_count, 1, 64)
+
+/* Rows about the picture. */
+#define VIEW_OPTIONS(o)                                                                            \
+    ROW_CHOICE("renderer", (o), take_renderer, "use soft or gl"),                                  \
+        {.name = "view",                                                                           \
+         .kind = OPTION_CHOICE,                                                                    \
+         .out = (o),                                                                               \
+         .take = take_views,                                                                       \
+         .choices = "is not a list of up to four views",                                           \
+         .names = view_names()},                                                                   \
+        ROW_FLAG("legend", &(o)->shows_legend),                                                    \
+        ROW_CHOICE("orbit", &(o)->orbit, options_take_orbit, OPTIONS_ORBIT),                       \
+        ROW_CHOICE("light", &(o)->session, take_light, "use auto, scene, or X,Y,Z, not all zero"), \
+        ROW_CHOICE("shade", &(o)->session, take_shade, "use on, cast, near or off"),               \
+        ROW_CHOICE("occlusion", &(o)->session, take_occlusion, "use soft, hard, thesis or off")
 
 static int read_options(int argc, char **argv, run_options *o)
 {
-    session_options *s = &o->session;
-    run_output_options *out = &o->output;
+    const option_def window_keys[] = WINDOW_KEYS(o);
+    const option_def picture_keys[] = PICTURE_KEYS(&o->output);
+    const option_def record_keys[] = {
+        ROW_FLAG("bodies", &o->session.record.keeps_bodies),
+        RECORDER_OPTIONS(&o->session.record),
+        {0},
+    };
+    const option_def map_keys[] = {MAP_KEYS(o), {0}};
+    const option_def mesh_keys[] = {
+        MAP_KEYS(o),
+        ROW_INT32("weight", &o->room.min_weight, 1, 255),
+        {0},
+    };
     const option_def options[] = {
-        {.name = "scene", .kind = OPTION_SCENE, .out = &s->scene_path},
-        {.name = "profile", .kind = OPTION_PROFILE, .out = &s->profile},
-        {.name = "renderer",
-         .kind = OPTION_CHOICE,
-         .out = o,
-         .take = take_renderer,
-         .choices = "use soft or gl"},
-        {.name = "headless", .kind = OPTION_FLAG, .out = &o->is_headless},
-        WINDOW_OPTIONS(o),
-        {.name = "frames",
-         .kind = OPTION_INT64,
-         .out = &o->frame_count,
-         .low = 1,
-         .high = 1000000000},
-        {.name = "video",
-         .kind = OPTION_CHOICE,
-         .out = &out->video_path,
-         .take = take_video,
-         .choices = "end the name in .mp4 or .y4m, or give - for Y4M on standard output, "
-                    "pipewire:NAME or /dev/videoN"},
-        PICTURE_OPTIONS(out),
-        {.name = "hands", .kind = OPTION_FLAG, .out = &s->enable_hands},
-        {.name = "grab", .kind = OPTION_FLAG, .out = &s->enable_grab},
-        CAMERA_OPTIONS(s),
-        {.name = "save-map", .kind = OPTION_FILE, .out = &o->save_map_path, .choices = ".map"},
-        {.name = "log", .kind = OPTION_FOLDER, .out = &out->log_folder},
-        {.name = "record",
-         .kind = OPTION_CHOICE,
-         .out = &s->record,
-         .take = recorder_take_path,
-         .choices = RECORDER_PATH},
-        {.name = "record-bodies", .kind = OPTION_FLAG, .out = &s->record.keeps_bodies},
-        RECORDER_OPTIONS(&s->record),
-        {.name = "view",
-         .kind = OPTION_CHOICE,
-         .out = o,
-         .take = take_views,
-         .choices = "is not a list of up to four views",
-         .names = view_names()},
-        {.name = "legend", .kind = OPTION_FLAG, .out = &o->shows_legend},
-        {.name = "orbit",
-         .kind = OPTION_CHOICE,
-         .out = &o->orbit,
-         .take = options_take_orbit,
-         .choices = OPTIONS_ORBIT},
-        {.name = "gravity",
-         .kind = OPTION_CHOICE,
-         .out = s,
-         .take = take_gravity,
-         .choices = "use floor, or X,Y,Z of up to 1000 m/s^2"},
-        {.name = "light",
-         .kind = OPTION_CHOICE,
-         .out = s,
-         .take = take_light,
-         .choices = "use X,Y,Z, not all zero"},
-        {.name = "match-light", .kind = OPTION_FLAG, .out = &s->matches_light},
-        {.name = "no-match-light", .kind = OPTION_FLAG, .out = &s->keeps_light},
-        {.name = "no-real-shade", .kind = OPTION_FLAG, .out = &s->no_real_shade},
-        {.name = "no-real-ambient", .kind = OPTION_FLAG, .out = &s->no_real_ambient},
-        {.name = "occlusion",
-         .kind = OPTION_CHOICE,
-         .out = s,
-         .take = take_occlusion,
-         .choices = "use soft, hard, thesis or off"},
-        {.name = "scale", .kind = OPTION_INT32, .out = &s->scale_factor, .low = 1, .high = 64},
-        {.name = "threads", .kind = OPTION_INT32, .out = &s->thread_count, .low = 1, .high = 64},
-        {.name = "hash", .kind = OPTION_FLAG, .out = &out->print_hash},
-        {.name = "quiet", .kind = OPTION_FLAG, .out = &out->is_quiet},
-        {.name = "set", .kind = OPTION_SET, .out = &s->settings},
-        {.name = "plugin", .kind = OPTION_PLUGIN},
+        WORLD_OPTIONS(&o->session),
+        VIEW_OPTIONS(o),
+        OUTPUT_OPTIONS(o),
+        ROW_FLAG("headless", &o->is_headless),
+        {.name = "window", .kind = OPTION_KEYS, .keys = window_keys},
+        ROW_INT64("frames", &o->frame_count, 1, 1000000000),
+        ROW_FLAG("hash", &o->output.print_hash),
+        ROW_FLAG("quiet", &o->output.is_quiet),
+        ROW_PLUGIN,
         {0},
     };
     return options_parse("run", argc, argv, options, print_help);
@@ -374,9 +412,12 @@ int run_parse(int argc, char **argv, run_options *o)
     if (argc - optind > 1) {
         return command_usage("run", "takes one SOURCE only");
     }
-    if (o->output.picture_count > 0 && o->output.picture_folder == NULL) {
-        return command_usage("run", "--picture-at needs --pictures DIR");
+    const bool keeps_room = o->room.mesh_path != NULL || o->room.map_path != NULL;
+    if (keeps_room && !o->session.is_camera_set) {
+        o->session.camera = RLF_CAMERA_MOVING;
     }
+    o->session.makes_map = keeps_room;
+    o->session.map_is_whole = keeps_room && o->is_headless;
     o->session.source = argv[optind]; /* NULL when there is none */
     return -1;
 }

@@ -1,6 +1,6 @@
 /* Video, pictures and logs of a run. */
 #define _POSIX_C_SOURCE 200809L
-#include "run_output.h"
+#include "run.h"
 
 #include "command.h"
 #include "picture_file.h"
@@ -50,16 +50,17 @@ static rlf_result write_video(run_output *out, const rlf_image_rgba8 *image)
     return rlf_video_write(out->video, image);
 }
 
-static rlf_result write_picture(run_output *out, const rlf_pipeline_output *frame)
+static rlf_result write_picture(run_output *out)
 {
     char path[PATH_SIZE];
     int length = snprintf(path, sizeof(path), "%s/%06lld.png", out->options.picture_folder,
-                          (long long)frame->frame_index);
+                          (long long)out->last_index);
     if (length < 0 || length >= PATH_SIZE) {
         return rlf_fail(RLF_ERROR_IO, "%s: the path is too long", out->options.picture_folder);
     }
     out->pictures++;
-    return picture_file_write(path, &frame->render.image, out->options.picture_shrink);
+    out->has_last = true;
+    return picture_file_write(path, &out->last_image, out->options.picture_shrink);
 }
 
 rlf_result run_output_save(run_output *out, const rlf_image_rgba8 *image, char *out_message,
@@ -112,7 +113,8 @@ static bool is_wanted(const run_output_options *o, int64_t frame)
     for (int i = 0; i < o->picture_count; i++) {
         is_listed = is_listed || o->picture_at[i] == frame;
     }
-    return o->picture_count > 0 ? is_listed : frame % o->picture_every == 0;
+    const bool has_list = o->picture_count > 0 || o->keeps_last;
+    return has_list ? is_listed : frame % o->picture_every == 0;
 }
 
 rlf_result run_output_add(run_output *out, const rlf_pipeline_output *frame)
@@ -124,6 +126,8 @@ rlf_result run_output_add(run_output *out, const rlf_pipeline_output *frame)
     }
     out->frames++;
     out->last_index = frame->frame_index;
+    out->last_image = frame->render.image;
+    out->has_last = false;
     out->moving_frames += frame->surface->camera_moves;
     out->tracked_frames += frame->track != NULL;
     out->lost_frames += frame->track != NULL && frame->track->health == RLF_TRACK_LOST;
@@ -133,8 +137,8 @@ rlf_result run_output_add(run_output *out, const rlf_pipeline_output *frame)
     out->is_light_estimated = frame->render.is_light_estimated;
     print_progress(out);
     recorder_add_bodies(out->recorder, frame->frame.time_ns, frame->snapshot);
-    rlf_result result = RLF_OK;
-    if (out->options.log_folder != NULL) {
+    rlf_result result = run_room_add(&out->room, out->options.room, frame);
+    if (result == RLF_OK && out->options.log_folder != NULL) {
         result = write_log(out, frame);
     }
     if (result == RLF_OK && out->options.video_path != NULL) {
@@ -142,22 +146,26 @@ rlf_result run_output_add(run_output *out, const rlf_pipeline_output *frame)
     }
     if (result == RLF_OK && out->options.picture_folder != NULL &&
         is_wanted(&out->options, frame->frame_index)) {
-        result = write_picture(out, frame);
+        result = write_picture(out);
     }
     return result;
 }
 
-rlf_result run_output_check(const run_output *out)
+rlf_result run_output_end(run_output *out)
 {
     const run_output_options *o = &out->options;
+    if (o->picture_folder == NULL) {
+        return RLF_OK;
+    }
     for (int i = 0; i < o->picture_count; i++) {
-        if (o->picture_folder != NULL && o->picture_at[i] > out->last_index) {
+        if (o->picture_at[i] > out->last_index) {
             return rlf_fail(RLF_ERROR_IO,
                             "no picture of frame %lld: the last one was %lld (the first is 0)",
                             (long long)o->picture_at[i], (long long)out->last_index);
         }
     }
-    return RLF_OK;
+    const bool is_due = o->keeps_last && !out->has_last && out->frames > 0;
+    return is_due ? write_picture(out) : RLF_OK;
 }
 
 rlf_result run_output_close(run_output *out)

@@ -4,8 +4,7 @@
 #include "body_model.h"
 #include "command.h"
 #include "recent.h"
-#include "scene_list.h"
-#include "start_page.h"
+#include "window_choices.h"
 #include "relief/window.h"
 
 #include <stdio.h>
@@ -132,6 +131,7 @@ static rlf_result open_source(run_stage *stage, const char *text)
     (void)snprintf(stage->source, sizeof stage->source, "%s", text);
     stage->options.session.source = stage->source;
     stage->output->recorder = stage->session->recorder;
+    run_room_close(&stage->output->room);
     recent_note(stage->source);
     return RLF_OK;
 }

@@ -2,7 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "scene_files.h"
 
-#include "suggest.h"
+#include "command.h"
 
 #include <dirent.h>
 #include <jansson.h>

@@ -123,15 +123,19 @@ static int32_t map_memory_mb(const char *path, int32_t least_mb)
 
 static rlf_result open_map(const session_options *options, session *s)
 {
-    if (options->map_path == NULL) {
+    const char *path = options->map_path;
+    if (path == NULL && !options->makes_map) {
         return RLF_OK;
     }
     rlf_map_def def = rlf_map_def_default();
     def.rig = rlf_source_get_info(s->source)->rig;
     def.pool = s->pool;
-    def.memory_mb = map_memory_mb(options->map_path, def.memory_mb);
+    def.memory_mb = path != NULL ? map_memory_mb(path, def.memory_mb) : def.memory_mb;
+    def.memory_mb = options->map_memory_mb > 0 ? options->map_memory_mb : def.memory_mb;
+    def.voxel_m = options->voxel_mm > 0 ? 0.001 * options->voxel_mm : def.voxel_m;
+    def.blocks_per_frame = options->map_is_whole ? 0 : def.blocks_per_frame;
     rlf_result result = rlf_map_create(&def, &s->map);
-    return result == RLF_OK ? rlf_map_read_file(s->map, options->map_path) : result;
+    return result == RLF_OK && path != NULL ? rlf_map_read_file(s->map, path) : result;
 }
 
 static rlf_result open_all(const session_options *options, session *s)

@@ -34,15 +34,19 @@ typedef struct session_options {
     bool enable_render;
     bool enable_hands, enable_grab;
     rlf_camera_mode camera; /* default fixed */
+    bool is_camera_set;     /* by the user */
     rlf_pose_origin poses;
     const char *map_path; /* of a room that is known; NULL = none */
+    bool makes_map;       /* an empty one where none is known, as follows; 0 = the default */
+    int32_t voxel_mm, map_memory_mb;
+    bool map_is_whole; /* every frame into all of its blocks, as nobody waits */
 } session_options;
 
 typedef struct session {
     rlf_pool *pool;
     rlf_source *source;
     rlf_scene scene;
-    rlf_map *map; /* that is known; NULL = none */
+    rlf_map *map; /* that is known or will be; NULL = the pipeline's own */
     rlf_pipeline *pipeline;
     rlf_reconstruct_def reconstruct; /* that the pipeline was made with */
     rlf_playback *playback;          /* the source's; NULL = it is not played */

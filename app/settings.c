@@ -25,50 +25,57 @@ typedef struct setting {
     size_t offset; /* in rlf_reconstruct_def */
     const char *const *words;
     const char *meaning;
+    bool is_lab; /* a step of the method, to be turned off where its worth is measured */
 } setting;
 
 #define AT(member) offsetof(rlf_reconstruct_def, member)
 
 static const setting table[] = {
     {"flying_removal", KIND_SWITCH, AT(enable_flying_removal), switch_words,
-     "mixed pixels at edges are dropped"},
-    {"fill", KIND_SWITCH, AT(enable_fill), switch_words, "small holes are filled"},
-    {"smoothing", KIND_SWITCH, AT(enable_smoothing), switch_words, "depth is averaged in planes"},
+     "mixed pixels at edges are dropped", true},
+    {"fill", KIND_SWITCH, AT(enable_fill), switch_words, "small holes are filled", true},
+    {"smoothing", KIND_SWITCH, AT(enable_smoothing), switch_words, "depth is averaged in planes",
+     true},
     {"wide_planes", KIND_SWITCH, AT(enable_wide_planes), switch_words,
-     "and in wider ones where the sensor is rough"},
+     "and in wider ones where the sensor is rough", true},
     {"steadying", KIND_SWITCH, AT(enable_steadying), switch_words,
-     "still depth is averaged over time"},
-    {"hold", KIND_SWITCH, AT(enable_hold), switch_words, "dropped pixels keep what was seen"},
+     "still depth is averaged over time", true},
+    {"hold", KIND_SWITCH, AT(enable_hold), switch_words, "dropped pixels keep what was seen", true},
     {"edge_normals", KIND_SWITCH, AT(enable_edge_normals), switch_words,
-     "normals of creases and outlines"},
-    {"velocity", KIND_SWITCH, AT(enable_velocity), switch_words, "velocity per pixel and region"},
-    {"thickness", KIND_SWITCH, AT(enable_thickness), switch_words, "thickness per pixel"},
-    {"coast", KIND_SWITCH, AT(enable_coast), switch_words, "thin things go on where they are lost"},
+     "normals of creases and outlines", true},
+    {"velocity", KIND_SWITCH, AT(enable_velocity), switch_words, "velocity per pixel and region",
+     true},
+    {"thickness", KIND_SWITCH, AT(enable_thickness), switch_words, "thickness per pixel", true},
+    {"coast", KIND_SWITCH, AT(enable_coast), switch_words, "thin things go on where they are lost",
+     true},
     {"color_sides", KIND_SWITCH, AT(enable_color_sides), switch_words,
-     "colour tells the sides of edges"},
-    {"dilation", KIND_SWITCH, AT(enable_dilation), switch_words, "regions grow as in fig. 4.12"},
-    {"normal_method", KIND_WORD, AT(normal_method), normal_words, "without smoothing"},
+     "colour tells the sides of edges", true},
+    {"dilation", KIND_SWITCH, AT(enable_dilation), switch_words, "regions grow as in fig. 4.12",
+     true},
+    {"normal_method", KIND_WORD, AT(normal_method), normal_words, "without smoothing", false},
     {"normals_face_camera", KIND_SWITCH, AT(normals_face_camera), switch_words,
-     "on: n.p < 0; off: n_z < 0 as in eq. 4.3"},
+     "on: n.p < 0; off: n_z < 0 as in eq. 4.3", false},
     {"background_method", KIND_WORD, AT(background_method), background_words,
-     "how the background is known"},
-    {"background_frames", KIND_COUNT, AT(background_frames), NULL, "frames averaged at the start"},
+     "how the background is known", false},
+    {"background_frames", KIND_COUNT, AT(background_frames), NULL, "frames averaged at the start",
+     false},
     {"absorb_after_s", KIND_NUMBER, AT(absorb_after_s), NULL,
-     "seconds until what is still becomes background; 0 never"},
+     "seconds until what is still becomes background; 0 never", false},
     {"foreground_threshold_m", KIND_NUMBER, AT(foreground_threshold_m), NULL,
-     "average: metres off the background"},
+     "average: metres off the background", false},
     {"foreground_sigmas", KIND_NUMBER, AT(foreground_sigmas), NULL,
-     "adaptive: sigmas before the background"},
-    {"foreground_min_m", KIND_NUMBER, AT(foreground_min_m), NULL, "adaptive: and metres"},
+     "adaptive: sigmas before the background", false},
+    {"foreground_min_m", KIND_NUMBER, AT(foreground_min_m), NULL, "adaptive: and metres", false},
     {"background_segment", KIND_WORD, AT(background_segment), segment_words,
-     "regions of the background"},
+     "regions of the background", false},
     {"foreground_segment", KIND_WORD, AT(foreground_segment), front_words,
-     "regions of the foreground"},
-    {"segment_tau_m", KIND_NUMBER, AT(segment_tau_m), NULL, "eq. 4.4 threshold, metres"},
-    {"min_region_points", KIND_COUNT, AT(min_region_points), NULL, "smaller regions are dropped"},
-    {"region_capacity", KIND_COUNT, AT(region_capacity), NULL, "most regions of a frame"},
-    {"depth_min_m", KIND_NUMBER, AT(depth_min_m), NULL, "nearer is too near, metres"},
-    {"depth_max_m", KIND_NUMBER, AT(depth_max_m), NULL, "farther is too far, metres"},
+     "regions of the foreground", false},
+    {"segment_tau_m", KIND_NUMBER, AT(segment_tau_m), NULL, "eq. 4.4 threshold, metres", false},
+    {"min_region_points", KIND_COUNT, AT(min_region_points), NULL, "smaller regions are dropped",
+     false},
+    {"region_capacity", KIND_COUNT, AT(region_capacity), NULL, "most regions of a frame", false},
+    {"depth_min_m", KIND_NUMBER, AT(depth_min_m), NULL, "nearer is too near, metres", false},
+    {"depth_max_m", KIND_NUMBER, AT(depth_max_m), NULL, "farther is too far, metres", false},
 };
 #define SETTING_COUNT ((int)(sizeof(table) / sizeof(table[0])))
 
@@ -147,19 +154,20 @@ static rlf_result refuse_name(const char *text)
     char names[1024];
     const size_t length = strcspn(text, "=");
     if (text[length] == '\0') {
-        return rlf_fail(RLF_ERROR_INVALID, "'%s': use NAME=VALUE, as `relief settings` lists them",
-                        text);
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "'%s': use NAME=VALUE, as `relief list settings` lists them", text);
     }
     (void)snprintf(name, sizeof(name), "%.*s", (int)length, text);
     join_names(" ", names);
     if (rlf_word_nearest(names, name, nearest, sizeof(nearest))) {
-        return rlf_fail(RLF_ERROR_INVALID,
-                        "there is no setting '%s': did you mean '%s'? `relief settings` lists all",
-                        name, nearest);
+        return rlf_fail(
+            RLF_ERROR_INVALID,
+            "there is no setting '%s': did you mean '%s'? `relief list settings` lists all", name,
+            nearest);
     }
     join_names(", ", names);
-    return rlf_fail(RLF_ERROR_INVALID, "there is no setting '%s': `relief settings` tells of %s",
-                    name, names);
+    return rlf_fail(RLF_ERROR_INVALID,
+                    "there is no setting '%s': `relief list settings` tells of %s", name, names);
 }
 
 rlf_result settings_add(setting_list *s, const char *text)
@@ -292,13 +300,16 @@ static const char *get(const setting *t, const rlf_reconstruct_def *def, char te
     }
 }
 
-void settings_print(const rlf_rig *rig)
+void settings_print(const rlf_rig *rig, bool prints_all)
 {
     rlf_reconstruct_def live = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, rig);
     rlf_reconstruct_def thesis = rlf_reconstruct_def_default(RLF_PROFILE_THESIS, rig);
     printf("%-23s %-14s %-14s %s\n", "name", "live", "thesis", "meaning");
     for (int i = 0; i < SETTING_COUNT; i++) {
         char a[32], b[32];
+        if (table[i].is_lab && !prints_all) {
+            continue;
+        }
         printf("%-23s %-14s %-14s %s", table[i].name, get(&table[i], &live, a),
                get(&table[i], &thesis, b), table[i].meaning);
         for (int k = 0; table[i].kind == KIND_WORD && table[i].words[k] != NULL; k++) {

@@ -35,10 +35,11 @@ typedef struct setting_view {
 } setting_view;
 
 int32_t settings_count(void);
-/* `index` from 0 to settings_count() - 1, in the order of `relief settings`. */
+/* `index` from 0 to settings_count() - 1, in the order of `relief list settings`. */
 void settings_look(int32_t index, const rlf_reconstruct_def *def, setting_view *out);
 
-/* Prints every setting with the values of both profiles for a camera. */
-void settings_print(const rlf_rig *rig);
+/* Prints settings with the values of both profiles for a camera: those that a user chooses, or all:
+ * also the steps that the laboratory turns off to measure what each brings. */
+void settings_print(const rlf_rig *rig, bool prints_all);
 
 #endif

@@ -3,7 +3,7 @@
 #include "calibrate/check.h"
 
 #include "command.h"
-#include "info/survey.h"
+#include "info/info.h"
 #include "relief/io.h"
 
 #include <math.h>

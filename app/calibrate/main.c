@@ -4,7 +4,6 @@
 #include "calibrate/check.h"
 #include "calibrate/opencv/opencv.h"
 #include "command.h"
-#include "commands.h"
 #include "options.h"
 #include "relief/io.h"
 

@@ -4,7 +4,7 @@
 
 #include "calibrate/picture_list.h"
 #include "calibrate/quality.h"
-#include "info/depth_plane.h"
+#include "info/info.h"
 #include "relief/io.h"
 
 #include <math.h>

@@ -7,7 +7,7 @@
 #include "calibrate/picker.h"
 #include "calibrate/seed.h"
 #include "command.h"
-#include "info/depth_plane.h"
+#include "info/info.h"
 
 #include "relief/io.h"
 

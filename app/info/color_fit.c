@@ -3,9 +3,7 @@
  * narrower by a pixel or two; that moves the peaks of the two sides apart and leaves their middle
  * alone. The error comes from leaving out one part of the picture, or of the time, after the other.
  */
-#include "info/color_fit.h"
-
-#include "info/depth_plane.h"
+#include "info/info.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,6 @@
 /* `relief info SOURCE`. */
 #include "command.h"
-#include "commands.h"
-#include "info/report.h"
+#include "info/info.h"
 #include "options.h"
 #include "relief/io.h"
 
@@ -13,6 +12,7 @@
 typedef struct info_options {
     const char *source, *json_path;
     int64_t seconds, frame_limit;
+    bool asks_noise, asks_up;
 } info_options;
 
 static void print_help(void)
@@ -22,9 +22,13 @@ static void print_help(void)
            "time, poses, and how far colour is off depth at edges. Reads a clip to its end.\n\n"
            "  --seconds N       of a live source, default 3\n"
            "  --frames N        read no more than N frames (a source without end: 60)\n"
-           "  --json FILE       the same as numbers\n"
+           "  --noise           instead: the sensor's noise by distance, of a still scene\n"
+           "  --up              instead: where floors, tables and walls say that up is, how the\n"
+           "                    camera looks, and how far off that is from a groundtruth.txt\n"
+           "  --json FILE       the same as numbers (not of --up)\n"
            "%s\n"
-           "examples:\n  relief info synthetic:room\n  relief info path/to/clip --json clip.json\n",
+           "examples:\n  relief info synthetic:room\n  relief info path/to/clip --json clip.json\n"
+           "  relief info path/to/clip --noise --frames 30\n",
            COMMAND_PLUGIN_HELP);
 }
 
@@ -32,14 +36,12 @@ static int parse(int argc, char **argv, info_options *o)
 {
     o->seconds = 3;
     const option_def options[] = {
-        {.name = "seconds", .kind = OPTION_INT64, .out = &o->seconds, .low = 1, .high = 3600},
-        {.name = "frames",
-         .kind = OPTION_INT64,
-         .out = &o->frame_limit,
-         .low = 1,
-         .high = 1000000000},
-        {.name = "json", .kind = OPTION_FILE, .out = &o->json_path, .choices = ".json"},
-        {.name = "plugin", .kind = OPTION_PLUGIN},
+        ROW_INT64("seconds", &o->seconds, 1, 3600),
+        ROW_INT64("frames", &o->frame_limit, 1, 1000000000),
+        ROW_FILE("json", &o->json_path, ".json"),
+        ROW_FLAG("noise", &o->asks_noise),
+        ROW_FLAG("up", &o->asks_up),
+        ROW_PLUGIN,
         {0},
     };
     int status = options_parse("info", argc, argv, options, print_help);
@@ -48,6 +50,9 @@ static int parse(int argc, char **argv, info_options *o)
     }
     if (argc - optind != 1) {
         return command_usage("info", "needs one SOURCE");
+    }
+    if (o->asks_up && (o->asks_noise || o->json_path != NULL)) {
+        return command_usage("info", "--up goes without --noise and --json");
     }
     o->source = argv[optind];
     return -1;
@@ -58,6 +63,14 @@ static rlf_result tell(const info_options *o, rlf_source *source)
 {
     const rlf_source_info *info = rlf_source_get_info(source);
     const bool is_endless = info->frame_count < 0 && !info->is_live;
+    const int64_t usual = is_endless || info->is_live ? ENDLESS_FRAMES : INT64_MAX;
+    const int64_t most = o->frame_limit > 0 ? o->frame_limit : usual;
+    if (o->asks_noise) {
+        return info_noise_run(source, o->source, most, o->json_path);
+    }
+    if (o->asks_up) {
+        return info_up(source, o->source, most);
+    }
     const survey_options limits = {
         .seconds = (double)o->seconds,
         .frame_limit = o->frame_limit == 0 && is_endless ? ENDLESS_FRAMES : o->frame_limit,

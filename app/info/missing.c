@@ -1,8 +1,6 @@
 /* Where a depth camera's pixels are missing: each run of missing pixels of a row is told apart by
  * what stands at its two ends. */
-#include "info/missing.h"
-
-#include "info/depth_plane.h"
+#include "info/info.h"
 
 #include <math.h>
 

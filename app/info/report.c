@@ -1,5 +1,5 @@
 /* The text of `relief info`. */
-#include "info/report.h"
+#include "info/info.h"
 
 #include "command.h"
 

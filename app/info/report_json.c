@@ -1,5 +1,5 @@
 /* `relief info --json`. */
-#include "info/report.h"
+#include "info/info.h"
 
 #include "json_file.h"
 

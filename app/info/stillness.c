@@ -5,7 +5,7 @@
  * successive differences that are small beside its deviation: the ratio of the mean square
  * successive difference to the variance (von Neumann 1941) is 2 for noise alone. Where most pixels
  * at a distance have noise alone, those that have about as much of it as the others are still. */
-#include "info/stillness.h"
+#include "info/info.h"
 
 #include <math.h>
 #include <string.h>

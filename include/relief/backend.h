@@ -70,7 +70,7 @@ typedef struct rlf_backend {
     const char *scheme;     /* of "scheme:place": [a-z0-9_-]+; never NULL */
     const char *extensions; /* of files it opens, e.g. ".oni .mkv", lower case; NULL = none */
     const char *keys;       /* its own keys, e.g. "serial mode"; NULL = none */
-    const char *summary;    /* one line for `relief sources` */
+    const char *summary;    /* one line for `relief list sources` */
     /* Devices: frames come by themselves and may stop coming. Relief calls `open` and the methods
      * from one thread of its own, one after the other. `next` may wait some 50 ms for a frame; when
      * it fails (but with RLF_ERROR_FORMAT: one damaged frame) or gives none for a second, the

@@ -201,7 +201,7 @@ RLF_API rlf_result rlf_ply_write_region(const char *path, const rlf_surface *sur
 /* ---- maps of rooms
  * ------------------------------------------------------------------------------------------- */
 
-/* Writes a map of a room as a file (docs/map.md has the layout). */
+/* Writes a map of a room as a file (docs/moving-camera.md has the layout). */
 RLF_API rlf_result rlf_map_write_file(const rlf_map *map, const char *path);
 /* Replaces what a map holds by a file's. What is wrong with the file is told; the map is then
  * empty. */

@@ -179,8 +179,8 @@ typedef bool (*rlf_map_write_fn)(void *context, const void *data, size_t size);
 /* Gives exactly `size` bytes; false = there are not so many. */
 typedef bool (*rlf_map_read_fn)(void *context, void *data, size_t size);
 
-/* Writes the map: version, settings, blocks, checksum; little endian (docs/map.md has the layout).
- * RLF_ERROR_IO when `write` stops. */
+/* Writes the map: version, settings, blocks, checksum; little endian (docs/moving-camera.md has the
+ * layout). RLF_ERROR_IO when `write` stops. */
 RLF_API rlf_result rlf_map_save(const rlf_map *map, rlf_map_write_fn write, void *context);
 /* Replaces what the map holds. The file's voxel size is taken over. RLF_ERROR_FORMAT: it is no map,
  * of another version, cut short or damaged; RLF_ERROR_CAPACITY: more than memory_mb holds. The map

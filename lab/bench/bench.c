@@ -4,7 +4,7 @@
 #include "bench/peers.h"
 #include "command.h"
 #include "lab_commands.h"
-#include "machine.h"
+#include "json_file.h"
 #include "options.h"
 
 #include <getopt.h>

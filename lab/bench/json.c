@@ -1,7 +1,6 @@
 /* The rows as JSON, and the comparison with an earlier file. */
 #include "bench/bench.h"
 #include "json_file.h"
-#include "machine.h"
 
 #include <math.h>
 #include <stdio.h>

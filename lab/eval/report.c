@@ -5,8 +5,7 @@
 #include "eval/real/real.h"
 #include "eval/table.h"
 #include "json_file.h"
-#include "machine.h"
-#include "statistics.h"
+#include "eval/statistics.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,9 +1,7 @@
 /* `relief-lab measure SOURCE`: thesis table 5.1 for any source. */
 #include "command.h"
 #include "lab_commands.h"
-#include "measure/noise.h"
 #include "measure/table.h"
-#include "measure/up.h"
 #include "options.h"
 #include "session.h"
 
@@ -19,9 +17,6 @@ typedef struct measure_options {
     int32_t scale_count;
     setting_list settings;
     const char *csv_path, *json_path;
-    bool noise;  /* the sensor's noise instead of the table */
-    bool up;     /* which way is up instead */
-    bool turned; /* and also with the camera turned */
 } measure_options;
 
 static void print_help(void)
@@ -37,19 +32,12 @@ static void print_help(void)
         "  --frames N        default: all frames of the source\n"
         "  --scale LIST      scale factors, default 8,1\n"
         "  --profile NAME    thesis (default) or live: whose normals are counted\n"
-        "  --set NAME=VALUE  a setting of the surface (see `relief settings`); any number\n"
+        "  --set NAME=VALUE  a setting of the surface (see `relief list settings`); any number\n"
         "  --csv FILE        the rows as CSV\n"
-        "  --json FILE       the rows as JSON\n"
-        "  --noise           instead: the sensor's noise by distance, of a still scene\n"
-        "  --up              instead: where floors, tables and walls say that up is, and how far\n"
-        "                    off that is if the clip has a groundtruth.txt\n"
-        "  --turned          with --up: also with the camera turned by 90, 180 and 270 degrees "
-        "and\n"
-        "                    mirrored, beside the answer for the camera as it is\n\n"
+        "  --json FILE       the rows as JSON\n\n"
         "examples:\n"
         "  relief-lab measure synthetic:thesis\n"
-        "  relief-lab measure path/to/clip --scale 8 --csv table.csv\n"
-        "  relief-lab measure path/to/clip --noise --frames 30\n");
+        "  relief-lab measure path/to/clip --scale 8 --csv table.csv\n");
 }
 
 /* "8,1" into the scales of the measure_options. */
@@ -80,9 +68,6 @@ static int parse(int argc, char **argv, measure_options *o)
         {.name = "profile", .kind = OPTION_PROFILE, .out = &o->profile},
         {.name = "csv", .kind = OPTION_FILE, .out = &o->csv_path, .choices = ".csv"},
         {.name = "json", .kind = OPTION_FILE, .out = &o->json_path, .choices = ".json"},
-        {.name = "noise", .kind = OPTION_FLAG, .out = &o->noise},
-        {.name = "up", .kind = OPTION_FLAG, .out = &o->up},
-        {.name = "turned", .kind = OPTION_FLAG, .out = &o->turned},
         {.name = "set", .kind = OPTION_SET, .out = &o->settings},
         {0},
     };
@@ -93,17 +78,8 @@ static int parse(int argc, char **argv, measure_options *o)
     if (argc - optind != 1) {
         return command_usage("measure", "needs one SOURCE");
     }
-    if (!o->noise && !o->up && o->frames >= 0 && o->frames < 6) {
+    if (o->frames >= 0 && o->frames < 6) {
         return command_usage("measure", "--frames %d: use 6 or more", (int)o->frames);
-    }
-    if (o->noise && o->csv_path != NULL) {
-        return command_usage("measure", "--noise writes no CSV; use --json");
-    }
-    if (o->up && (o->noise || o->csv_path != NULL || o->json_path != NULL)) {
-        return command_usage("measure", "--up goes without --noise, --csv and --json");
-    }
-    if (o->turned && !o->up) {
-        return command_usage("measure", "--turned goes with --up");
     }
     o->source = argv[optind];
     return -1;
@@ -209,14 +185,7 @@ int measure_main(int argc, char **argv)
     if (check_files(&options) != RLF_OK) {
         return command_failed();
     }
-    rlf_result result;
-    if (options.up) {
-        result = measure_up_run(options.source, options.frames, options.turned);
-    } else if (options.noise) {
-        result = measure_noise_run(options.source, options.frames, options.json_path);
-    } else {
-        result = measure_table(&options);
-    }
+    const rlf_result result = measure_table(&options);
     if (command_interrupted) {
         return command_stopped("measure");
     }

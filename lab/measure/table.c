@@ -3,7 +3,6 @@
 #include "measure/table.h"
 
 #include "json_file.h"
-#include "machine.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -50,8 +50,8 @@ def views(data):
     return Section("What it looks like", [
         Text("Frame 92 of the demo: a visitor walks through a room with virtual cubes. One camera, no scan, no training, no GPU."),
         Pictures(pictures),
-        Command("relief run synthetic:room --scene scenes/demo.json --headless --frames 93 --picture-at 92 "
-                "--view normals --pictures out/views")])
+        Command("relief run synthetic:room --scene scenes/demo.json --headless --frames 93 "
+                "--view normals --pictures out/views?at=92")])
 
 
 def strips(data):
@@ -63,9 +63,9 @@ def strips(data):
                 for profile in ("thesis", "live")]
         if all(all(row) for _, row in rows):
             blocks.append(Strip(title, rows))
-            listed = ",".join(map(str, frames))
+            listed = "+".join(map(str, frames))
             blocks.append(Command(f"relief run {source} --scene scenes/thesis/{scene}.json --profile thesis "
-                                  f"--headless --frames {frames[-1] + 1} --picture-at {listed} --pictures out/{scene}"))
+                                  f"--headless --frames {frames[-1] + 1} --pictures out/{scene}?at={listed}"))
     if len(blocks) == 1:
         blocks.append(Text("no pictures: the folder strips is missing"))
     return Section("The thesis's scenes", blocks)
@@ -350,7 +350,7 @@ def noise(data):
     return Section("Is the simulator like a sensor?", blocks + [
         Charts(drawn),
         Table(["distance", "pixels %", "1 pixel apart, mm", "2 apart", "4 apart", "in time", "assumed", "1 apart, mm/m²"], rows),
-        Command("relief-lab measure SOURCE --noise")])
+        Command("relief info SOURCE --noise")])
 
 
 def sections(data):

@@ -2,7 +2,7 @@
 # # A tour of Relief in Python
 #
 # From a depth picture to a ball on the floor, hands and a recording. The room is synthetic, so no camera is needed.
-# A recording's path or a camera's name from `relief sources` does as well.
+# A recording's path or a camera's name from `relief list sources` does as well.
 
 # %%
 import matplotlib

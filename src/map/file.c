@@ -1,4 +1,4 @@
-/* Maps as bytes. Layout, little endian (docs/map.md):
+/* Maps as bytes. Layout, little endian (docs/moving-camera.md):
  *
  *   8 bytes "RLFMAP\r\n", u32 version, f64 voxel_m, u32 blocks, u32 viewpoints,
  *   of each viewpoint 7 x f64 x y z qx qy qz qw, then each block by rising key:

@@ -88,8 +88,9 @@ void viewer_window_swap(viewer_window *window);
 /* input.c: keys, mouse and dropped files become commands. */
 void viewer_window_take_input(viewer_window *window);
 
-/* screen.c: chooses the monitor for full screen, from 1 in the order of `relief run --monitor`; 0 =
- * the primary one. A window goes there, too. RLF_ERROR_INVALID lists them when there is none. */
+/* screen.c: chooses the monitor for full screen, from 1 in the order of `relief run --window
+ * monitor=N`; 0 = the primary one. A window goes there, too. RLF_ERROR_INVALID lists them when
+ * there is none. */
 rlf_result viewer_screen_choose(viewer_window *window, int32_t number);
 void viewer_screen_toggle(viewer_window *window);
 bool viewer_screen_is_full(const viewer_window *window);

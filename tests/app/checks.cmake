@@ -30,12 +30,12 @@ if(TARGET relief_man)
   set_tests_properties(app.man PROPERTIES LABELS app SKIP_RETURN_CODE 77 TIMEOUT 600)
 endif()
 
-# Fusing as a user meets it.
+# The room of a moving camera as a user meets it.
 if(TARGET relief_app)
-  add_test(NAME app.fuse
-           COMMAND sh ${PROJECT_SOURCE_DIR}/tests/app/test_fuse.sh $<TARGET_FILE:relief_app>
-                   ${CMAKE_CURRENT_BINARY_DIR}/app_fuse)
-  set_tests_properties(app.fuse PROPERTIES LABELS app TIMEOUT 600)
+  add_test(NAME app.room
+           COMMAND sh ${PROJECT_SOURCE_DIR}/tests/app/test_room.sh $<TARGET_FILE:relief_app>
+                   ${CMAKE_CURRENT_BINARY_DIR}/app_room)
+  set_tests_properties(app.room PROPERTIES LABELS app TIMEOUT 600)
 endif()
 
 # Recording as a user meets it.
@@ -57,7 +57,7 @@ endif()
 
 # What lies behind the command.
 if(TARGET relief_app)
-  foreach(name test_info test_settings)
+  foreach(name test_info test_info_noise test_settings)
     relief_test(${PROJECT_SOURCE_DIR}/tests/app/${name}.c app)
     target_link_libraries(${name} PRIVATE relief_command relief_io relief)
     string(REGEX REPLACE "^test_" "" what ${name})

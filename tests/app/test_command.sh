@@ -35,7 +35,7 @@ expect_done()
 }
 
 # ---- help and usage ---------------------------------------------------------------------------------
-for command in "" run record place export info sources scenes settings calibrate fuse; do
+for command in "" run record place export info list calibrate; do
     # shellcheck disable=SC2086 # the empty one must vanish
     "$relief" $command --help >stdout.txt 2>stderr.txt || fail "$command --help: status $?"
     grep -q "usage: relief" stdout.txt || fail "$command --help: no usage"
@@ -52,7 +52,7 @@ env -u DISPLAY -u WAYLAND_DISPLAY "$relief" >stdout.txt 2>stderr.txt
 status=$?
 [ "$status" -eq 2 ] && [ ! -s stdout.txt ] && grep -q "^usage: relief COMMAND" stderr.txt ||
     fail "relief alone: status $status, $(cat stdout.txt stderr.txt)"
-for command in run record place export info sources scenes settings calibrate fuse; do
+for command in run record place export info list calibrate; do
     expect_done "$command" --help
     cp stdout.txt help.txt
     expect_done help "$command"
@@ -66,14 +66,30 @@ expect_error 2 "no command 'fly': there are help, run, " fly
 expect_error 2 "no command 'rnu': did you mean 'run'" rnu
 expect_error 2 "did you mean 'export'" help exprt
 expect_error 2 "'--viw': did you mean '--view'" run synthetic:room --viw camera
-expect_error 2 "'--pict' may be one of --pictures --picture-every" run synthetic:room --pict here
+expect_error 2 "'--sc' may be one of --scene --scale" run synthetic:room --sc here
+expect_error 2 "'--pict': did you mean '--pictures'" run synthetic:room --pict here
+expect_error 2 "has no 'evry': did you mean 'every'" run synthetic:room --pictures 'here?evry=3'
+expect_error 2 "--pictures every '0': use a number from 1" run synthetic:room --pictures 'here?every=0'
+expect_error 2 "--window end 'never': use loop, hold or stop" run synthetic:room --window full,end=never
+expect_error 2 "--window has no 'ful': did you mean 'full'" run synthetic:room --window ful
+expect_error 2 "--window full takes no value" run synthetic:room --window full=2
+expect_error 2 "the value is missing" run synthetic:room --window monitor
+
+# A word of an earlier version is answered with today's.
+expect_error 2 "^relief: 'sources' is now \`relief list sources\`" sources
+expect_error 2 "^relief: 'fuse' is now \`relief run SOURCE --headless --mesh ROOM.ply\`" fuse clip --out room.ply
+expect_error 2 "^relief run: --picture-every is now --pictures DIR?every=N" run synthetic:room --picture-every 5
+expect_error 2 "^relief run: --no-match-light is now --light scene" run synthetic:room --no-match-light
+expect_error 2 "^relief run: --poses is now --camera source" run synthetic:room --poses=source
+[ "$("$relief" --help | grep -cE '^  (run|record|place|export|info|calibrate|list) ')" -eq 7 ] || fail "not seven commands"
+[ "$("$relief" run --help | grep -cE '^ +--')" -le 28 ] || fail "run has more than 28 options"
 expect_error 2 "unknown option '-x'" run -xyz
 expect_error 2 "'--headles': did you mean '--headless'" run "$small" --headles --frames 1
 expect_error 2 "'--frame': did you mean '--frames'" run "$small" --headless --frame=1
 expect_error 2 "no option '--verson': did you mean '--version'" --verson
 expect_error 2 "no option '--runn'" help --runn
 expect_error 2 "'x' after help" help run x
-expect_error 2 "unknown option '--bogus'" settings --bogus
+expect_error 2 "unknown option '--bogus'" list settings --bogus
 expect_error 2 "needs a value" run "$small" --headless --frames
 expect_error 2 "takes one SOURCE only" run "$small" -- --headless --hash
 
@@ -83,10 +99,7 @@ expect_error 2 "end the name in .mp4 or .y4m" run "$small" --headless --video o
 expect_error 2 "ends in .map" run "$small" --headless --save-map o.ply
 expect_error 2 "a folder, not" run "$small" --headless --log o.csv
 expect_error 2 "a folder, not" run "$small" --headless --pictures o.png
-expect_error 2 "ends in .png" fuse "$small" --picture o.jpg
-expect_error 2 "ends in .map" fuse "$small" --save o.ply
-expect_error 2 "ends in .txt" fuse "$small" --trajectory o.json
-expect_error 2 "ends with .ply" fuse "$small" --out o.stl
+expect_error 2 "in .ply, .obj or .glb" run "$small" --mesh o.stl
 expect_error 2 "ends in .json" info "$small" --json o.csv
 expect_error 2 "a folder, not" export "$small" --what depth --out o.npy
 ls o o.* 2>/dev/null && fail "a name that lies was used"
@@ -103,7 +116,7 @@ expect_error 1 'did you mean "realsense:"' run realsens
 expect_error 1 'no kind of source "nope:". This build has synthetic ' run nope:
 
 # Shipped scenes by name; a file goes first.
-expect_done scenes
+expect_done list scenes
 grep -q "^rain  *synthetic:room  *all shapes rain" stdout.txt || fail "scenes: $(cat stdout.txt)"
 grep -q "^thesis/arm  *synthetic:room  *a cube" stdout.txt || fail "scenes: $(cat stdout.txt)"
 [ "$(awk '{ print (NF >= 4) }' stdout.txt | sort -u)" = 1 ] || fail "scenes: one line tells nothing: $(cat stdout.txt)"
@@ -146,12 +159,13 @@ expect_done run "synthetic:room?color=96x54" --headless --frames 2 --gravity flo
 grep -q "^gravity:  -\\?0.0[0-9], 9.81, -\\?0.0[0-9]" stdout.txt || fail "run --gravity floor: $(cat stdout.txt)"
 expect_error 2 "soft, hard, thesis or off" run "synthetic:room?color=96x54" --headless --occlusion maybe
 expect_error 2 "frames" run "synthetic:room?color=96x54" --headless --frames 0
-expect_error 2 "needs --pictures" run "synthetic:room?color=96x54" --headless --frames 2 --picture-at 1
 expect_error 1 "no picture of frame 2: the last one was 1" run "synthetic:room?color=96x54" --headless --frames 2 \
-    --picture-at 1,2 --pictures late
-[ "$(ls late)" = 000001.png ] || fail "run --picture-at 1,2: $(ls late)"
+    --pictures 'late?at=1+2'
+[ "$(ls late)" = 000001.png ] || fail "run --pictures late?at=1+2: $(ls late)"
+expect_done run "synthetic:room?color=96x54" --headless --frames 3 --pictures 'last?at=0+last&shrink=2' --quiet
+[ "$(ls last | tr '\n' ' ')" = "000000.png 000002.png " ] || fail "run --pictures last?at=0+last: $(ls last)"
 expect_error 2 "frames" run "synthetic:room?color=96x54" --headless --frames ten
-expect_error 2 "relief settings" run synthetic:room --set smell=on
+expect_error 2 "relief list settings" run synthetic:room --set smell=on
 expect_error 2 "needs --left DIR" calibrate
 expect_error 2 "COLUMNSxROWS" calibrate --left here --board 9
 expect_error 2 "not both" calibrate --left here synthetic:room
@@ -175,17 +189,27 @@ unset RELIEF_OPENCV_LIBRARY
 expect_error 2 "off or on" run synthetic:room --set fill=maybe
 expect_error 2 "a count" export synthetic:room --set min_region_points=1.5
 expect_error 1 "depth_min_m is nan" run "synthetic:room?color=96x54" --headless --frames 1 --set depth_min_m=nan
-expect_done settings "synthetic:thesis?color=96x54"
+expect_done list settings "synthetic:thesis?color=96x54"
+[ "$(wc -l <stdout.txt)" -le 18 ] || fail "more settings than a user chooses: $(cat stdout.txt)"
+expect_done list settings --all "synthetic:thesis?color=96x54"
 grep -q "^steadying  *on  *off" stdout.txt || fail "settings: not listed"
 expect_error 2 "needs one SOURCE" info
-expect_error 2 "takes no SOURCE" sources synthetic:room
+expect_error 2 "takes no 'synthetic:room'" list sources synthetic:room
+expect_error 2 "use sources, scenes or settings" list
+expect_error 2 "goes without" info synthetic:empty --up --noise
+expect_error 1 "has no frames" info "synthetic:room?color=96x54&frames=0" --up
+expect_error 1 "has no frames" info "synthetic:room?color=96x54&frames=0" --noise
+expect_done info "$small" --up --frames 2
+grep -q "looks down by 0.0 degrees" stdout.txt || fail "info --up: $(cat stdout.txt)"
+expect_done info "$small" --noise --frames 2 --json noise.json
+grep -q '"temporal_mm"' noise.json || fail "info --noise: noise.json"
 expect_error 2 "from 1 to 3600" info synthetic:room --seconds 0
 expect_error 1 "no/such/folder" info synthetic:room --json no/such/folder/info.json
 expect_done info "synthetic:room?color=96x54" --frames 3 --json info.json
 grep -q '"interval_s": 0.0333' info.json || fail "info --json: $(cat info.json)"
 grep -q "^missing  *[0-9.]* % of the pixels" stdout.txt || fail "info: $(cat stdout.txt)"
 # What OpenNI2's drivers leave behind when they are asked for devices is not Relief's to free.
-ASAN_OPTIONS=detect_leaks=0 "$relief" sources >stdout.txt 2>stderr.txt || fail "sources: $(cat stderr.txt)"
+ASAN_OPTIONS=detect_leaks=0 "$relief" list sources >stdout.txt 2>stderr.txt || fail "sources: $(cat stderr.txt)"
 grep -q "^  FOLDER " stdout.txt || fail "sources: $(cat stdout.txt)"
 expect_error 2 "needs a SOURCE" place --scene s.json
 expect_error 2 "needs --scene" place synthetic:room
@@ -237,7 +261,7 @@ find . -name '*.part' | grep -q . && fail "a .part file was left behind"
 # ---- what must come out ---------------------------------------------------------------------------------
 for profile in live thesis; do
     expect_done run "synthetic:room?color=96x54&frames=12" --profile $profile --headless --video $profile.y4m \
-        --pictures pictures_$profile --picture-every 5 --log log_$profile --hash
+        --pictures "pictures_$profile?every=5" --log log_$profile --hash
     [ -s $profile.y4m ] || fail "$profile: no video"
     [ "$(ls pictures_$profile)" = "000000.png
 000005.png
@@ -270,9 +294,9 @@ expect_done run "$small" --scene spawn.json --headless --frames 2 --quiet --log 
 [ "$(grep -c '^[01],[^,]*,n_[0-9]*,' log_spawn/bodies.csv)" -eq 3000 ] || fail "spawn: $(tail -n 1 log_spawn/bodies.csv)"
 
 # Without OpenGL, or a build without it, the soft renderer draws the same pictures and one line says so.
-expect_done run "synthetic:room?color=96x54&frames=4" --headless --renderer soft --quiet --pictures soft --picture-every 1
+expect_done run "synthetic:room?color=96x54&frames=4" --headless --renderer soft --quiet --pictures 'soft?every=1'
 __EGL_VENDOR_LIBRARY_DIRS=/nonexistent "$relief" run "synthetic:room?color=96x54&frames=4" --headless --renderer gl \
-    --quiet --pictures no_gl --picture-every 1 >stdout.txt 2>stderr.txt || fail "no OpenGL: status $?"
+    --quiet --pictures 'no_gl?every=1' >stdout.txt 2>stderr.txt || fail "no OpenGL: status $?"
 [ "$(wc -l <stderr.txt)" -eq 1 ] || fail "no OpenGL: not one line: $(cat stderr.txt)"
 grep -q "going on with the soft" stderr.txt || fail "no OpenGL: $(cat stderr.txt)"
 diff -r soft no_gl >stdout.txt || fail "no OpenGL: other pictures: $(cat stdout.txt)"
@@ -300,7 +324,7 @@ moving='synthetic:room?path=handheld&color=96x54&frames=8'
 expect_done run "$moving" --camera moving --headless --save-map room.map
 expect_done run "$moving" --camera moving --headless --map room.map --log mapped
 [ "$(wc -l <mapped/trajectory.txt)" -ge 8 ] || fail "--map: the camera is not found"
-expect_error 1 "the camera has not moved" run "$small&frames=2" --headless --save-map none.map
+expect_error 1 "has not moved" run "$small&frames=2" --headless --camera fixed --save-map none.map
 expect_error 1 "no/room.map: cannot be created" run "$moving" --camera moving --headless --save-map no/room.map
 [ -e none.map ] && fail "--save-map: there is no map to be written"
 
@@ -378,7 +402,7 @@ done
 [ "$(ls shared | wc -l)" -eq 4 ] || fail "three runs into one folder: $(ls shared)"
 
 if [ -e /dev/full ]; then
-    for command in "run $small&frames=1 --headless --quiet --hash" settings "info $small --frames 1" --help "run --help"; do
+    for command in "run $small&frames=1 --headless --quiet --hash" "list settings" "info $small --frames 1" --help "run --help"; do
         # shellcheck disable=SC2086 # words
         "$relief" $command >/dev/full 2>stderr.txt
         [ $? -eq 1 ] || fail "$command >/dev/full: status is not 1"

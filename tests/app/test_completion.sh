@@ -57,32 +57,34 @@ offers()
 
 folder=folder
 [ "$shell" = bash ] || folder=folder/
-offers "relief " run record fuse help
+offers "relief " run record list help
 offers "relief ru" run '!record'
 offers "relief help e" export '!run'
 offers "relief run --pro" --profile '!--renderer'
 offers "relief run --profile " live thesis
 offers "relief run x --occlusion th" thesis '!soft'
 offers "relief run --view depth,no" depth,normals
+offers "relief run --window full,mir" full,mirror
+offers "relief list sc" scenes
 offers "relief run --scene ra" rain '!stack'
 offers "relief export x --what true_d" true_depth
 offers "relief info --jso" --json
 offers "relief run --log fo" "$folder" '!one.txt'
 if [ "$shell" = bash ]; then # which breaks words at ":" and "=" and wants the rest alone
     offers "relief run synthetic:cr" crossing
-    offers "relief run --end=ho" hold
+    offers "relief run --window full,end=ho" hold
     offers "relief run --set fill=" on off
     offers "relief run --set fil" fill=
     offers "relief run --scene one" one.json '!one.txt'
     offers "relief info on" one.json one.txt
 else
     offers "relief run synthetic:cr" synthetic:crossing
-    offers "relief run --end=ho" --end=hold
+    offers "relief run --window full,end=ho" full,end=hold
     offers "relief run --set fill=" fill=on fill=off
     offers "relief run --set fil" fill=
     offers "relief info on" one.json
 fi
-# The rooms are those that `relief sources` names.
-"$relief" sources | sed -n 's/^    NAME: //p' | tr -d , | tr ' ' '\n' | sed 's/^/synthetic:/' | sort >rooms.txt
+# The rooms are those that `relief list sources` names.
+"$relief" list sources | sed -n 's/^    NAME: //p' | tr -d , | tr ' ' '\n' | sed 's/^/synthetic:/' | sort >rooms.txt
 "$relief" help --complete run '' | cut -f 1 | grep '^synthetic:' | sort | cmp - rooms.txt
 echo "completion: $shell: as the tables say"

@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "info/survey.h"
+#include "info/info.h"
 #include "relief/io.h"
 
 #include <math.h>

@@ -93,7 +93,7 @@ static void there_is_an_end_to_them(void **state)
     assert_int_equal(settings_add(&list, "fill=on"), RLF_ERROR_INVALID);
 }
 
-/* What `relief settings` and the window's panel show can be given back. */
+/* What `relief list settings` and the window's panel show can be given back. */
 static void every_setting_shows_what_it_is(void **state)
 {
     (void)state;

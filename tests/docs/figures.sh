@@ -12,7 +12,7 @@ fail() {
 }
 
 rm -rf "$work"
-mkdir -p "$work/docs"
+mkdir -p "$work/docs" "$work/lab"
 cd "$work"
 export RELIEF_FIGURES_ROOT="$work"
 cat >docs/figures.csv <<'END'
@@ -25,6 +25,7 @@ sample='| backs | <!--=a.b-->2.1<!--/--> cm and <!--=size-->70<!--/--> MB |'
 echo "$sample" >docs/one.md
 echo "no figure here" >README.md
 cp README.md CHANGELOG.md
+cp README.md lab/measuring.md
 cp README.md CONTRIBUTING.md
 "$root/script/figures" --check >/dev/null || fail "documents that are right are not accepted"
 

@@ -23,7 +23,7 @@ foreach(name viewer_test viewer_live_test viewer_play_test)
   set_tests_properties(gl.${what} PROPERTIES LABELS gl TIMEOUT 1800
                        ENVIRONMENT "ASAN_OPTIONS=detect_leaks=0")
 endforeach()
-# The tasks of docs/window.md, with the command itself.
+# What docs/window.md tells, with the command itself.
 if(TARGET relief_app AND RELIEF_XVFB_RUN)
   add_test(NAME gl.window_tasks
            COMMAND ${RELIEF_XVFB_RUN} -a -s "-screen 0 1480x900x24 -noreset"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The tasks of docs/window.md as their user does them, with keys and the mouse, on a display that
+# What docs/window.md tells, as a user does it, with keys and the mouse, on a display that
 # xvfb-run lends (1480 x 900): tests/gl/window_tasks.sh RELIEF WORK. Looks at the screen and at the
 # files. Exit status 77: a tool is missing, and that is said.
 set -eu

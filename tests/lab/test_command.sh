@@ -60,7 +60,6 @@ expect_error 1 "has no end" measure "synthetic:thesis?color=96x54&frames=-1"
 expect_error 1 "too few frames" measure "synthetic:thesis?color=96x54&frames=4"
 expect_error 1 "no/table.json" measure synthetic:thesis --json no/table.json
 expect_error 1 "no/table.csv" measure synthetic:thesis --csv no/table.csv
-expect_error 1 "has no frames" measure "synthetic:room?color=96x54&frames=0" --noise
 expect_done measure "synthetic:thesis?color=96x54&frames=12" --csv table.csv --json table.json
 [ "$(wc -l <table.csv)" -eq 9 ] || fail "measure: table.csv rows"
 grep -q '"cpu"' table.json || fail "measure: table.json names no machine"
@@ -68,12 +67,6 @@ grep -q '"counted_bad_percent"' table.json || fail "measure: table.json"
 grep -q "3392" stdout.txt || fail "measure: no full 64x53 grid"
 grep -q "2632" stdout.txt || fail "measure: no 56x47 centre"
 expect_error 2 "use 6 or more" measure synthetic:thesis --frames 5
-expect_error 2 "goes without" measure synthetic:empty --up --noise
-expect_error 1 "has no frames" measure "synthetic:room?color=96x54&frames=0" --up
-expect_done measure "$small" --up --frames 2
-grep -q "looks down by 0.0 degrees" stdout.txt || fail "measure --up: $(cat stdout.txt)"
-expect_done measure "$small" --noise --frames 2 --json noise.json
-grep -q '"temporal_mm"' noise.json || fail "measure --noise: noise.json"
 
 # Accuracy.
 expect_error 2 "not one of them" eval --scene moon

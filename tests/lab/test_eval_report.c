@@ -11,7 +11,7 @@
 #include "eval/report.h"
 #include "eval/run.h"
 #include "eval/table.h"
-#include "statistics.h"
+#include "eval/statistics.h"
 
 #include <jansson.h>
 #include <math.h>

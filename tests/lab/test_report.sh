@@ -28,13 +28,13 @@ END
 "$lab" eval --scene planes --seeds 2 --json data/eval.json >/dev/null 2>&1
 "$lab" bench --source "synthetic:room?color=96x54" --quick --frames 6 --peers peers.txt --json data/bench.json >/dev/null 2>&1
 "$lab" measure "synthetic:thesis?frames=12" --json data/table.json >/dev/null
-"$lab" measure synthetic:empty --noise --frames 2 --json data/noise_0.json >/dev/null
-"$relief" run synthetic:room --headless --quiet --frames 16 --log data/log --picture-at 7 \
-    --picture-shrink 4 --pictures data/views
+"$relief" info synthetic:empty --noise --frames 2 --json data/noise_0.json >/dev/null
+"$relief" run synthetic:room --headless --quiet --frames 16 --log data/log \
+    --pictures 'data/views?at=7&shrink=4'
 mv data/views/000007.png data/views/camera.png
 for profile in thesis live; do
-    "$relief" run synthetic:room --headless --quiet --frames 5 --picture-at 1,2,3,4 --picture-shrink 4 \
-        --profile $profile --pictures data/strips/hand/$profile
+    "$relief" run synthetic:room --headless --quiet --frames 5 \
+        --profile $profile --pictures "data/strips/hand/$profile?at=1+2+3+4&shrink=4"
 done
 echo "hand synthetic:room 1,2,3,4 a cube & a <hand>" >data/strips/strips.txt
 

@@ -42,7 +42,7 @@ grep -q 'no kind of source "plugin_camera:"' err.txt || fail "$(cat err.txt)"
 # What a plug-in folder holds is listed; one that cannot be used is one warning.
 cp "$good" "$bad/unavailable.so" found/
 echo "this is text" >found/garbage.so
-RELIEF_PLUGIN_PATH=/no/such/folder:$work/found "$relief" sources >out.txt 2>err.txt ||
+RELIEF_PLUGIN_PATH=/no/such/folder:$work/found "$relief" list sources >out.txt 2>err.txt ||
     fail "sources: $(cat err.txt)"
 [ "$(wc -l <err.txt)" -eq 1 ] || fail "sources: not one warning: $(cat err.txt)"
 grep -q "garbage.so: cannot be loaded" err.txt || fail "sources: $(cat err.txt)"

@@ -451,9 +451,9 @@ static void sources_that_cannot_be_opened(void **state)
     } cases[] = {
         {"", RLF_ERROR_INVALID, "empty", "synthetic:room"},
         {"/no/such/place", RLF_ERROR_IO, "no such file or folder", "synthetic:room"},
-        {"nosuch:0", RLF_ERROR_UNSUPPORTED, "\"nosuch:\"", "relief sources"},
-        {"ros2:/camera", RLF_ERROR_UNSUPPORTED, "\"ros2:\"", "relief sources"},
-        {"zed:", RLF_ERROR_UNSUPPORTED, "\"zed:\"", "relief sources"},
+        {"nosuch:0", RLF_ERROR_UNSUPPORTED, "\"nosuch:\"", "relief list sources"},
+        {"ros2:/camera", RLF_ERROR_UNSUPPORTED, "\"ros2:\"", "relief list sources"},
+        {"zed:", RLF_ERROR_UNSUPPORTED, "\"zed:\"", "relief list sources"},
         {test_path("file.xyz"), RLF_ERROR_UNSUPPORTED, "is a file", "give the folder"},
     };
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {

@@ -1,4 +1,4 @@
-/* Files of `relief fuse`: the map itself, and its mesh as .ply, .obj and .glb. */
+/* Files of `relief run`: the map itself, and its mesh as .ply, .obj and .glb. */
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -267,7 +267,7 @@ static void what_cannot_be_had_is_told(void **state)
         rlf_result result;
         const char *part, *cure;
     } cases[] = {
-        {"openni2:1d27/0601@1/9", RLF_ERROR_DEVICE, "no such camera", "relief sources"},
+        {"openni2:1d27/0601@1/9", RLF_ERROR_DEVICE, "no such camera", "relief list sources"},
         {"openni2:?mode=641x480", RLF_ERROR_UNSUPPORTED, "no such depth mode", "leave mode="},
         {"openni2:?mode=big", RLF_ERROR_INVALID, "mode=big", "640x480@30"},
         {"openni2:?color=2", RLF_ERROR_INVALID, "color=2", "0 or 1"},

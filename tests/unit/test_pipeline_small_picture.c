@@ -82,7 +82,7 @@ static rlf_track_health feed(void)
     return f.camera.last.health;
 }
 
-/* As `relief fuse` makes it. */
+/* As a mesh of it has them. */
 static void open_stage(void)
 {
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f.rig);

@@ -37,7 +37,7 @@ while [ ! -S "$work/run/pipewire-0" ] && [ $tries -lt 50 ]; do
 done
 
 "$relief" run "synthetic:empty?color=320x180" --headless --quiet --frames 400 \
-    --video pipewire:Relief --pictures pictures --picture-at 399 &
+    --video pipewire:Relief --pictures 'pictures?at=399' &
 source=$!
 "$reader" 30 last.bgrx &
 reading=$!

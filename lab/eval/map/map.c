@@ -1,9 +1,9 @@
 /* The map of a room against the true one: its mesh, what is missing, what a person who left leaves
  * behind, and memory. Poses are the true ones: what a tracker adds is not measured here. */
 #include "command.h"
+#include "eval/map/fuser.h"
 #include "eval/map/view.h"
 #include "eval/sections.h"
-#include "fuse/fuser.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,7 +15,7 @@ enum {
     AFTER_PERSON = 150, /* frames of the empty room then */
     SPACING = 7,        /* pixels between those that are looked at for what is missing */
     LOOKS = 6,          /* views for that */
-    MIN_WEIGHT = 32,    /* as `relief fuse` */
+    MIN_WEIGHT = 32,    /* as `relief run --mesh` */
     PERSON_POINTS = 4096
 };
 

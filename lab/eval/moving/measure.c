@@ -2,8 +2,8 @@
 #include "eval/moving/moving.h"
 
 #include "command.h"
-#include "fuse/fuser.h"
-#include "fuse/trajectory.h"
+#include "eval/map/fuser.h"
+#include "trajectory.h"
 
 #include <math.h>
 #include <stdlib.h>

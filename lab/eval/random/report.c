@@ -1,7 +1,7 @@
 /* Mean, interval and the worst room; and the three columns. */
 #include "eval/random/random.h"
 #include "eval/table.h"
-#include "statistics.h"
+#include "eval/statistics.h"
 
 #include <math.h>
 #include <stdio.h>

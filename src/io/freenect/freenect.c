@@ -155,7 +155,7 @@ static rlf_result open_device(kinect *k, const rlf_address *address)
         k->device = NULL;
         return rlf_fail(RLF_ERROR_DEVICE,
                         "%s: the Kinect cannot be opened: check the number or serial number "
-                        "(`relief sources`), that no other program uses it, and the kernel's "
+                        "(`relief list sources`), that no other program uses it, and the kernel's "
                         "driver gspca_kinect",
                         address->source);
     }

@@ -105,7 +105,7 @@ static rlf_result open_device(freenect2 *k, const rlf_address *address)
     if (k->device == NULL) {
         return rlf_fail(RLF_ERROR_DEVICE,
                         "%s: %s: plug it into USB 3, close other programs that use it, and see "
-                        "`relief sources`",
+                        "`relief list sources`",
                         address->source, cause);
     }
     relief_freenect2_calibration calibration;

@@ -62,7 +62,7 @@ rlf_result rlf_map_read_file(rlf_map *map, const char *path)
     if (r == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    rlf_result result = io_file_open(&r->file, path, "make one with `relief fuse --save`");
+    rlf_result result = io_file_open(&r->file, path, "make one with `relief run --save-map`");
     if (result == RLF_OK) {
         result = rlf_map_load(map, read_some, r);
         if (result < 0) {

@@ -59,7 +59,7 @@ static int write_json(const rlf_map_mesh *mesh, const glb_sizes *s, char *text, 
     }
     return snprintf(
         text, size,
-        "{\"asset\":{\"version\":\"2.0\",\"generator\":\"relief fuse\"},\"scene\":0,"
+        "{\"asset\":{\"version\":\"2.0\",\"generator\":\"relief\"},\"scene\":0,"
         "\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0,\"name\":\"room\"}],"
         "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1%s},"
         "\"indices\":2}]}],\"buffers\":[{\"byteLength\":%zu}],\"bufferViews\":["

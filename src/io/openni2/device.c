@@ -83,7 +83,7 @@ static rlf_result find_device(const openni2_api *api, const rlf_address *address
     if (!is_found) {
         return rlf_fail(RLF_ERROR_DEVICE,
                         "%s: no such camera is plugged in: check the cable and the USB rules, "
-                        "`relief sources` lists what OpenNI2 sees",
+                        "`relief list sources` lists what OpenNI2 sees",
                         address->source);
     }
     return RLF_OK;

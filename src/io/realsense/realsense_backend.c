@@ -137,7 +137,7 @@ static rlf_result take_device(realsense *r, const rs2_device_list *list, const c
     }
     return rlf_fail(RLF_ERROR_DEVICE,
                     "%s: no RealSense camera%s%.64s is plugged in (%d others are): plug it in, or "
-                    "see `relief sources`",
+                    "see `relief list sources`",
                     r->source, serial[0] != '\0' ? " with serial number " : "", serial, count);
 }
 

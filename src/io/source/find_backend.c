@@ -135,7 +135,7 @@ static rlf_result fail_path(const char *source, const char *path)
     }
     return rlf_fail(RLF_ERROR_UNSUPPORTED,
                     "%s: is a file of a kind that this build cannot open: give the folder that "
-                    "holds depth.txt and camera.json, or what `relief sources` lists",
+                    "holds depth.txt and camera.json, or what `relief list sources` lists",
                     source);
 }
 

@@ -2,7 +2,7 @@
  * noise alone, z^2 (w(-h) - 2 w(0) + w(h)) / sqrt(6). Curved surfaces and edges are outliers, so
  * the deviation is that of the middle part of the samples. Noise that is alike in neighbours shows
  * as a deviation that grows with the step. Temporal noise: (z_t - z_t-1) / sqrt(2). */
-#include "measure/noise.h"
+#include "info/info.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -18,17 +18,17 @@ typedef struct noise_histogram {
     int64_t cells[CELLS];
 } noise_histogram;
 
-struct measure_noise {
+struct info_noise {
     int32_t width, height;
     float *depth, *previous;
     int64_t frames, pixels, missing;
-    int64_t in_bin[MEASURE_NOISE_BINS];
-    noise_histogram histograms[NOISE_KIND_COUNT][MEASURE_NOISE_BINS];
+    int64_t in_bin[INFO_NOISE_BINS];
+    noise_histogram histograms[NOISE_KIND_COUNT][INFO_NOISE_BINS];
 };
 
-measure_noise *measure_noise_create(const rlf_rig *rig)
+info_noise *info_noise_create(const rlf_rig *rig)
 {
-    measure_noise *noise = rlf_alloc(sizeof(*noise));
+    info_noise *noise = rlf_alloc(sizeof(*noise));
     if (noise == NULL) {
         return NULL;
     }
@@ -39,12 +39,12 @@ measure_noise *measure_noise_create(const rlf_rig *rig)
     noise->depth = rlf_alloc_array(count, sizeof(float));
     noise->previous = rlf_alloc_array(count, sizeof(float));
     if (noise->depth == NULL || noise->previous == NULL) {
-        measure_noise_destroy(&noise);
+        info_noise_destroy(&noise);
     }
     return noise;
 }
 
-void measure_noise_destroy(measure_noise **noise)
+void info_noise_destroy(info_noise **noise)
 {
     if (*noise != NULL) {
         rlf_free((*noise)->depth);
@@ -54,26 +54,10 @@ void measure_noise_destroy(measure_noise **noise)
     }
 }
 
-static void read_depth(measure_noise *noise, const rlf_frame *frame)
-{
-    for (int32_t y = 0; y < noise->height; y++) {
-        float *out = noise->depth + (ptrdiff_t)y * noise->width;
-        const unsigned char *f32 = (const unsigned char *)frame->depth_f32;
-        const unsigned char *u16 = (const unsigned char *)frame->depth_u16;
-        ptrdiff_t row = (ptrdiff_t)y * frame->depth_stride;
-        for (int32_t x = 0; x < noise->width; x++) {
-            double z = u16 != NULL ? ((const uint16_t *)(const void *)(u16 + row))[x] /
-                                         frame->depth_units_per_metre
-                                   : ((const float *)(const void *)(f32 + row))[x];
-            out[x] = z > 0.0 && z < 1000.0 ? (float)z : 0.0f;
-        }
-    }
-}
-
 static int32_t bin_of(float z)
 {
-    int32_t bin = (int32_t)(z / MEASURE_NOISE_BIN_M);
-    return bin < MEASURE_NOISE_BINS ? bin : -1;
+    int32_t bin = (int32_t)(z / INFO_NOISE_BIN_M);
+    return bin < INFO_NOISE_BINS ? bin : -1;
 }
 
 static void histogram_add(noise_histogram *h, double residual)
@@ -83,7 +67,7 @@ static void histogram_add(noise_histogram *h, double residual)
     h->count++;
 }
 
-static void add_pixel(measure_noise *noise, int32_t x, int32_t y)
+static void add_pixel(info_noise *noise, int32_t x, int32_t y)
 {
     static const int32_t steps[] = {1, 2, 4};
     const float *at = noise->depth + (ptrdiff_t)y * noise->width + x;
@@ -106,9 +90,9 @@ static void add_pixel(measure_noise *noise, int32_t x, int32_t y)
     }
 }
 
-void measure_noise_add(measure_noise *noise, const rlf_frame *frame)
+void info_noise_add(info_noise *noise, const rlf_frame *frame)
 {
-    read_depth(noise, frame);
+    info_depth_plane(frame, noise->depth);
     for (int32_t y = 0; y < noise->height; y++) {
         for (int32_t x = 0; x < noise->width; x++) {
             noise->pixels++;
@@ -141,7 +125,7 @@ static double quantile(const noise_histogram *h, double share)
  * deviations, within which the root of the mean square is taken (0.9867 of the deviation for a
  * normal distribution). 68.27 % and 90 % of a normal distribution lie within 1 and 1.645
  * deviations; the second counts where most samples are equal. */
-double measure_noise_sigma(const measure_noise *noise, noise_kind kind, int32_t bin)
+double info_noise_sigma(const info_noise *noise, noise_kind kind, int32_t bin)
 {
     const noise_histogram *h = &noise->histograms[kind][bin];
     if (h->count < SAMPLES_MIN) {
@@ -159,17 +143,17 @@ double measure_noise_sigma(const measure_noise *noise, noise_kind kind, int32_t 
     return count > 0 ? sqrt(sum / (double)count) / 0.9867 : -1.0;
 }
 
-double measure_noise_share(const measure_noise *noise, int32_t bin)
+double info_noise_share(const info_noise *noise, int32_t bin)
 {
     return noise->pixels > 0 ? 100.0 * (double)noise->in_bin[bin] / (double)noise->pixels : 0.0;
 }
 
-double measure_noise_missing(const measure_noise *noise)
+double info_noise_missing(const info_noise *noise)
 {
     return noise->pixels > 0 ? 100.0 * (double)noise->missing / (double)noise->pixels : 0.0;
 }
 
-int64_t measure_noise_frames(const measure_noise *noise)
+int64_t info_noise_frames(const info_noise *noise)
 {
     return noise->frames;
 }

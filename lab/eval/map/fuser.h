@@ -1,7 +1,7 @@
 /* Frames with poses become a map: the surface stage cleans the depth, each depth pixel gets its
  * colour. */
-#ifndef RELIEF_APP_FUSE_FUSER_H
-#define RELIEF_APP_FUSE_FUSER_H
+#ifndef RELIEF_LAB_MAP_FUSER_H
+#define RELIEF_LAB_MAP_FUSER_H
 
 #include "pipeline/moving/camera_pose.h"
 #include "pipeline/moving/color_view.h"

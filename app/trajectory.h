@@ -1,6 +1,6 @@
-/* The camera's way: a list of poses, as TUM's tools read it, and how far it is from the truth. */
-#ifndef RELIEF_APP_FUSE_TRAJECTORY_H
-#define RELIEF_APP_FUSE_TRAJECTORY_H
+/* The camera's way: a list of poses, and how far it is from the truth. */
+#ifndef RELIEF_APP_TRAJECTORY_H
+#define RELIEF_APP_TRAJECTORY_H
 
 #include "relief/base.h"
 #include "relief/math.h"
@@ -18,8 +18,6 @@ rlf_result trajectory_add(trajectory *t, int64_t time_ns, const rlf_pose *found,
 /* Absolute trajectory error, metres: root mean square distance after the best rigid motion (Sturm
  * et al. 2012). Negative when there are fewer than three poses. */
 double trajectory_error(const trajectory *t);
-/* "time tx ty tz qx qy qz qw", seconds and metres. */
-rlf_result trajectory_write(const trajectory *t, const char *path);
 void trajectory_free(trajectory *t);
 
 #endif

@@ -1,5 +1,5 @@
 /* Student's confidence interval. */
-#include "statistics.h"
+#include "eval/statistics.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
 /* One frame after the other into the map. */
-#include "fuse/fuser.h"
+#include "eval/map/fuser.h"
 
 #include <string.h>
 

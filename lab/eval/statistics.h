@@ -1,6 +1,6 @@
 /* Mean of a few repeats and how well it is known. */
-#ifndef RELIEF_APP_STATISTICS_H
-#define RELIEF_APP_STATISTICS_H
+#ifndef RELIEF_LAB_STATISTICS_H
+#define RELIEF_LAB_STATISTICS_H
 
 #include <stdint.h>
 

@@ -1,6 +1,6 @@
 #!/bin/sh
-# `relief fuse`, and `relief run` with a map, as a user meets them: nothing is made of nothing.
-# usage: test_fuse.sh RELIEF WORK_FOLDER
+# `relief run` with --mesh, --save-map and --map as a user meets it: nothing is made of nothing.
+# usage: test_room.sh RELIEF WORK_FOLDER
 set -u
 relief=$1
 work=$2
@@ -40,18 +40,19 @@ expect_nothing()
     fail "record: $(cat stderr.txt)"
 
 # ---- a short clip has a mesh, unless it is asked for too much -----------------------------------------
-expect 0 '' fuse clip --out room.ply --voxel 12 --save room.map --picture room.png
-grep -q '4 of 4 frames fused' stdout.txt || fail "frames: $(cat stdout.txt)"
-grep -q 'source .*surface .*tracking .*map ' stdout.txt || fail "times: $(cat stdout.txt)"
+expect 0 '' run clip --headless --mesh 'room.ply?voxel=12' --save-map room.map --log way \
+    --view map --pictures 'pictures?at=last'
+grep -q 'room: *4 of 4 frames, .* of 12 mm voxels' stdout.txt || fail "frames: $(cat stdout.txt)"
 grep -q ' [1-9][0-9]* triangles' stdout.txt || fail "an empty mesh: $(cat stdout.txt)"
-expect 0 '' fuse clip --out one.obj --voxel 12 --frames 1
-grep -q '1 of 1 frame fused' stdout.txt || fail "frames: $(cat stdout.txt)"
-expect 1 '--min-weight 255: with [0-9][0-9]* or less' fuse clip --out none.glb --voxel 12 \
-    --min-weight 255
+[ -s room.ply ] && [ -s room.map ] && [ -s pictures/000003.png ] || fail "files: $(ls . pictures)"
+[ "$(grep -vc '^#' way/trajectory.txt)" -eq 4 ] || fail "trajectory: $(cat way/trajectory.txt)"
+expect 0 '' run clip --headless --mesh 'one.obj?voxel=12' --frames 1
+grep -q 'room: *1 of 1 frame,' stdout.txt || fail "frames: $(cat stdout.txt)"
+expect 1 'weight=255: with [0-9][0-9]* or less' run clip --headless --mesh 'none.glb?voxel=12&weight=255'
 expect_nothing none.glb
 most=$(sed -n 's/.*with \([0-9]*\) or less.*/\1/p' stderr.txt)
-expect 0 '' fuse clip --out most.ply --voxel 12 --min-weight "$most"
-expect 1 'with [0-9][0-9]* or less' fuse clip --out none.ply --voxel 12 --min-weight $((most + 1))
+expect 0 '' run clip --headless --mesh "most.ply?voxel=12&weight=$most"
+expect 1 'with [0-9][0-9]* or less' run clip --headless --mesh "none.ply?voxel=12&weight=$((most + 1))"
 
 # ---- nothing within the range ------------------------------------------------------------------------
 mkdir near
@@ -60,21 +61,21 @@ for range in '0.01 0.02' '20.0 30.0'; do
     sed -e "s/\"depth_min_m\": *[0-9.]*/\"depth_min_m\": ${range% *}/" \
         -e "s/\"depth_max_m\": *[0-9.]*/\"depth_max_m\": ${range#* }/" clip/camera.json >near/camera.json
     grep -q "${range#* }" near/camera.json || fail "the range is not in camera.json"
-    for option in --out=none.ply --save=none.map --picture=none.png; do
-        expect 1 'no depth from .* m in 4 frames: .* % .*units_per_metre' fuse near "$option"
+    for option in --mesh=none.ply --save-map=none.map; do
+        expect 1 'no depth from .* m in 4 frames: .* % .*units_per_metre' run near --headless "$option"
         expect_nothing "${option#*=}"
     done
 done
 
 # ---- poses of the source -----------------------------------------------------------------------------
-expect 1 'none of 4 frames has a pose' fuse clip --poses source --out none.ply
+expect 1 'none of 4 frames has a pose' run clip --headless --camera source --mesh none.ply
 expect_nothing none.ply
 cp -r clip far
 grep -v '^#' clip/depth.txt | awk '{ print $1, (NR - 1) * 1e5, 0, 0, 0, 0, 0, 1 }' >far/groundtruth.txt
-for command in 'fuse far --out far.ply --voxel 12' 'run far --camera moving --headless --quiet --log far_log'; do
-    # shellcheck disable=SC2086 # words
-    expect 0 'frame 1: position 100000, 0, 0 m.* too far .*left out' $command --poses source
-    [ "$(grep -c 'left out' stderr.txt)" -eq 1 ] || fail "$command: told more than once"
+for option in --mesh=far.ply?voxel=12 --log=far_log; do
+    expect 0 'frame 1: position 100000, 0, 0 m.* too far .*left out' run far --camera source --headless \
+        --quiet "$option"
+    [ "$(grep -c 'left out' stderr.txt)" -eq 1 ] || fail "$option: told more than once"
 done
 
 # ---- a map larger than what is usual ------------------------------------------------------------------

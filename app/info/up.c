@@ -1,8 +1,7 @@
-/* `relief-lab measure SOURCE --up`. */
-#include "measure/up.h"
+/* `relief info SOURCE --up`. */
+#include "info/info.h"
 
 #include "command.h"
-#include "measure/turned.h"
 #include "timing.h"
 
 #include <stdio.h>
@@ -10,7 +9,6 @@
 
 #define DEGREES (180.0 / RLF_PI)
 #define TRUTH_MAX 100000
-#define FIRST_MAX 4096                 /* frames that turned ones are compared with */
 #define WRONG_DEG 10.0                 /* bodies roll off a table that is taken to lean so much */
 #define TRUTH_GAP_NS INT64_C(20000000) /* a frame farther than this from every pose has none */
 
@@ -19,13 +17,11 @@ typedef struct true_pose {
     rlf_quat q; /* camera to world, z up */
 } true_pose;
 
-/* Answers for one turn, turned back. */
 typedef struct up_tally {
     timing_series confidence, down, roll; /* degrees */
-    timing_series error, off;             /* degrees off the truth, and off the unturned answer */
+    timing_series error;                  /* degrees off the truth */
     int64_t frames, sure, judged;
     int64_t wrong, wrong_sure; /* by the truth */
-    int64_t other, other_sure; /* than the unturned answer */
 } up_tally;
 
 typedef struct up_measure {
@@ -35,7 +31,6 @@ typedef struct up_measure {
     bool is_synthetic;
     rlf_vec3 world_up; /* in the truth's world */
     bool knows_world;
-    rlf_vec3 first[FIRST_MAX]; /* answers of the frames as they are */
     up_tally tally;
 } up_measure;
 
@@ -121,12 +116,12 @@ static double degrees_between(rlf_vec3 a, rlf_vec3 b)
     return DEGREES * rlf_acos(rlf_clamp(rlf_dot(a, b), -1.0, 1.0));
 }
 
-static void add_frame(up_measure *m, up_tally *tally, const turn *t, const rlf_surface *surface)
+static void add_frame(up_measure *m, const rlf_surface *surface)
 {
+    up_tally *tally = &m->tally;
     rlf_vec3 up, truth;
     double confidence = rlf_surface_find_up(surface, &up);
     bool is_sure = confidence >= RLF_UP_SURE;
-    up = unturned_vector(up, t);
     timing_add(&tally->confidence, confidence);
     tally->sure += is_sure;
     timing_add(&tally->down, DEGREES * rlf_atan2(-up.z, -up.y));
@@ -139,29 +134,17 @@ static void add_frame(up_measure *m, up_tally *tally, const turn *t, const rlf_s
         tally->wrong += error > WRONG_DEG;
         tally->wrong_sure += error > WRONG_DEG && is_sure;
     }
-    if (tally->frames < FIRST_MAX && t == turns) {
-        m->first[tally->frames] = up;
-    }
-    if (tally->frames < FIRST_MAX) {
-        double off = degrees_between(up, m->first[tally->frames]);
-        timing_add(&tally->off, off);
-        tally->other += off > WRONG_DEG;
-        tally->other_sure += off > WRONG_DEG && is_sure;
-    }
     tally->frames++;
 }
 
 /* Each frame by itself: the camera may move. */
-static rlf_result read_frames(rlf_source *source, int64_t frames, const turn *t, up_measure *m,
-                              up_tally *tally)
+static rlf_result read_frames(rlf_source *source, int64_t frames, up_measure *m)
 {
-    rlf_rig rig = turned_rig(&rlf_source_get_info(source)->rig, t);
-    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
+    const rlf_rig *rig = &rlf_source_get_info(source)->rig;
+    const rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, rig);
     rlf_reconstruct *stage = NULL;
-    float *depth =
-        rlf_alloc_array((size_t)rig.depth.width * (size_t)rig.depth.height, sizeof(*depth));
-    rlf_result result = depth == NULL ? RLF_ERROR_MEMORY : rlf_reconstruct_create(&def, &stage);
-    while (result >= RLF_OK && result != RLF_END && (frames < 0 || tally->frames < frames) &&
+    rlf_result result = rlf_reconstruct_create(&def, &stage);
+    while (result >= RLF_OK && result != RLF_END && m->tally.frames < frames &&
            !command_interrupted) {
         rlf_frame frame;
         const rlf_surface *surface;
@@ -169,15 +152,13 @@ static rlf_result read_frames(rlf_source *source, int64_t frames, const turn *t,
         if (result != RLF_OK) {
             continue;
         }
-        frame = turned_frame(&frame, &rig, t, depth);
         rlf_reconstruct_reset(stage);
         result = rlf_reconstruct_process(stage, &frame, &surface);
         if (result == RLF_OK) {
-            add_frame(m, tally, t, surface);
+            add_frame(m, surface);
         }
     }
     rlf_reconstruct_destroy(&stage);
-    rlf_free(depth);
     return result < RLF_OK ? result : RLF_OK;
 }
 
@@ -202,57 +183,25 @@ static void print(const char *name, const up_tally *t)
     }
 }
 
-static void print_turned(const turn *k, const up_tally *t)
+rlf_result info_up(rlf_source *source, const char *name, int64_t frames)
 {
-    printf("  %-25s sure %lld of %lld, confidence %.2f; off the unturned answer by %.1f degrees, "
-           "by more than 10: %lld, of them sure %lld\n",
-           k->name, (long long)t->sure, (long long)t->frames, timing_percentile(&t->confidence, 50),
-           timing_percentile(&t->off, 50), (long long)t->other, (long long)t->other_sure);
-}
-
-static rlf_result read_turned(rlf_source *source, int64_t frames, up_measure *m)
-{
-    rlf_result result = RLF_OK;
-    for (int32_t k = 1; k < TURNS && result == RLF_OK && !command_interrupted; k++) {
-        up_tally *t = &m->tally;
-        memset(t, 0, sizeof(*t));
-        result = rlf_source_restart(source);
-        result = result == RLF_OK ? read_frames(source, frames, &turns[k], m, t) : result;
-        if (result == RLF_OK && !command_interrupted) {
-            print_turned(&turns[k], t);
-        }
-    }
-    return result;
-}
-
-rlf_result measure_up_run(const char *source_name, int64_t frames, bool is_turned)
-{
-    rlf_source *source = NULL;
-    rlf_result result = rlf_open_source(source_name, NULL, &source);
-    if (result != RLF_OK) {
-        return result;
-    }
     up_measure *m = rlf_alloc(sizeof(*m));
-    if (rlf_source_get_info(source)->frame_count < 0 && frames < 0) {
-        result = rlf_fail(RLF_ERROR_INVALID, "%s: has no end; add --frames N", source_name);
-    } else {
-        result = m == NULL ? RLF_ERROR_MEMORY : read_truth(source_name, m);
+    if (m == NULL) {
+        return RLF_ERROR_MEMORY;
     }
-    if (result == RLF_OK && strncmp(source_name, "synthetic:", strlen("synthetic:")) == 0) {
+    rlf_result result = read_truth(name, m);
+    if (result == RLF_OK && strncmp(name, "synthetic:", strlen("synthetic:")) == 0) {
         m->is_synthetic = rlf_synthetic_get_down(source, &m->down) == RLF_OK;
     }
-    result = result == RLF_OK ? read_frames(source, frames, &turns[0], m, &m->tally) : result;
-    if (result == RLF_OK && m->tally.frames == 0 && !command_interrupted) {
-        result = rlf_fail(RLF_ERROR_INVALID, "%s: has no frames", source_name);
+    result = result == RLF_OK ? read_frames(source, frames, m) : result;
+    if (result == RLF_OK && m->tally.frames == 0) {
+        result = command_interrupted ? RLF_NO_FRAME
+                                     : rlf_fail(RLF_ERROR_INVALID, "%s: has no frames", name);
     }
-    if (result == RLF_OK && !command_interrupted) {
-        print(source_name, &m->tally);
-        result = is_turned ? read_turned(source, frames, m) : RLF_OK;
+    if (result == RLF_OK) {
+        print(name, &m->tally);
     }
-    if (m != NULL) {
-        rlf_free(m->truth);
-    }
+    rlf_free(m->truth);
     rlf_free(m);
-    rlf_source_destroy(&source);
     return result;
 }

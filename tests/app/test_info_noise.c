@@ -1,4 +1,4 @@
-/* `relief-lab measure --noise` finds the noise that was put in. */
+/* `relief info --noise` finds the noise that was put in. */
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "analytic.h"
-#include "measure/noise.h"
+#include "info/info.h"
 
 #define W 160
 #define H 120
@@ -27,17 +27,17 @@ static void draw(const rlf_rig *rig, analytic_random *r, double unit_m, float de
     }
 }
 
-static measure_noise *measure(double unit_m, int32_t frames)
+static info_noise *measure(double unit_m, int32_t frames)
 {
     static float depth[W * H];
     rlf_rig rig = analytic_rig(W, H);
     analytic_random r = {99};
-    measure_noise *noise = measure_noise_create(&rig);
+    info_noise *noise = info_noise_create(&rig);
     assert_non_null(noise);
     for (int32_t t = 0; t < frames; t++) {
         draw(&rig, &r, unit_m, depth);
         rlf_frame frame = analytic_frame(&rig, depth, t);
-        measure_noise_add(noise, &frame);
+        info_noise_add(noise, &frame);
     }
     return noise;
 }
@@ -47,25 +47,25 @@ static void noise_is_found_at_every_step(void **state)
     (void)state;
     const double units_m[] = {0.0, 0.001, 0.005};
     for (int u = 0; u < 3; u++) {
-        measure_noise *noise = measure(units_m[u], 4);
+        info_noise *noise = measure(units_m[u], 4);
         for (int k = 0; k < NOISE_KIND_COUNT; k++) {
-            double sigma = measure_noise_sigma(noise, (noise_kind)k, 4); /* 2 to 2.5 m */
+            double sigma = info_noise_sigma(noise, (noise_kind)k, 4); /* 2 to 2.5 m */
             assert_in_range((int)(1e6 * sigma), 3800, 4400);
         }
-        assert_true(measure_noise_missing(noise) > 9.5 && measure_noise_missing(noise) < 10.5);
-        measure_noise_destroy(&noise);
+        assert_true(info_noise_missing(noise) > 9.5 && info_noise_missing(noise) < 10.5);
+        info_noise_destroy(&noise);
     }
 }
 
 static void one_frame_has_no_noise_in_time(void **state)
 {
     (void)state;
-    measure_noise *noise = measure(0.0, 1);
-    assert_int_equal(measure_noise_frames(noise), 1);
-    assert_true(measure_noise_sigma(noise, NOISE_TEMPORAL, 4) < 0.0);
-    assert_true(measure_noise_sigma(noise, NOISE_STEP_1, 4) > 0.0);
-    assert_true(measure_noise_sigma(noise, NOISE_STEP_1, 12) < 0.0); /* nothing is that far */
-    measure_noise_destroy(&noise);
+    info_noise *noise = measure(0.0, 1);
+    assert_int_equal(info_noise_frames(noise), 1);
+    assert_true(info_noise_sigma(noise, NOISE_TEMPORAL, 4) < 0.0);
+    assert_true(info_noise_sigma(noise, NOISE_STEP_1, 4) > 0.0);
+    assert_true(info_noise_sigma(noise, NOISE_STEP_1, 12) < 0.0); /* nothing is that far */
+    info_noise_destroy(&noise);
 }
 
 int main(void)

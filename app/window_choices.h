@@ -1,8 +1,15 @@
-/* Scenes to choose from in the window. */
-#ifndef RELIEF_APP_SCENE_LIST_H
-#define RELIEF_APP_SCENE_LIST_H
+/* What the window offers to open: cameras, recordings and scenes. */
+#ifndef RELIEF_APP_WINDOW_CHOICES_H
+#define RELIEF_APP_WINDOW_CHOICES_H
 
 #include "relief/window.h"
+
+/* Cameras, the simulated room, recent recordings: at most RLF_WINDOW_CHOICES_MAX; returns how many.
+ */
+int32_t start_page_list(rlf_window_choice *out);
+/* Those and the scenes. RLF_OK: *out is what was chosen; RLF_END: the window was closed;
+ * RLF_ERROR_DEVICE: no window to be had. */
+rlf_result start_page_choose(rlf_window_choice *out);
 
 /* The scenes that come with Relief; before them the *.json files beside the scene that is open,
  * where that is none of these. At most RLF_WINDOW_CHOICES_MAX; returns how many. */

@@ -1,8 +1,9 @@
-/* `relief sources`: what is plugged in, what this build can open, what it was made without. */
+/* `relief list`: the sources, scenes and settings that there are to choose from. */
 #include "command.h"
-#include "commands.h"
 #include "options.h"
 #include "relief/io.h"
+#include "scene_files.h"
+#include "settings.h"
 
 #include <getopt.h>
 #include <stdio.h>
@@ -20,13 +21,25 @@ typedef struct kind_list {
 
 static void print_help(void)
 {
-    printf("usage: relief sources [OPTIONS]\n\n"
-           "Lists the cameras that are plugged in and the kinds of source that this build can "
-           "open.\nWhat cannot be opened here is listed with the reason and the cure.\n\n"
+    printf("usage: relief list sources\n"
+           "       relief list scenes\n"
+           "       relief list settings [SOURCE] [OPTIONS]\n\n"
+           "sources   cameras that are plugged in, and the kinds of source that this build can\n"
+           "          open; what cannot be opened here has the reason and the cure\n"
+           "scenes    that come with Relief: bodies and their motion, for --scene of run and\n"
+           "          export, each with the source that it was made for\n"
+           "settings  of the surface, for --set of run and export, with the values of both\n"
+           "          profiles for SOURCE's camera (default synthetic:room)\n\n"
+           "  --all             of settings: those of the laboratory, too\n"
            "%s\n"
-           "examples:\n  relief sources\n  relief sources --plugin ./plugin_camera.so\n",
+           "examples:\n"
+           "  relief list sources\n"
+           "  relief list scenes\n"
+           "  relief run synthetic:room --set depth_max_m=3\n",
            COMMAND_PLUGIN_HELP);
 }
+
+/* ---- sources -------------------------------------------------------------------------------- */
 
 static int longer(size_t a, int b)
 {
@@ -164,16 +177,8 @@ static void print_openable(const kind_list *list)
         "    that stood there is lifted, sweeps or carries at speed instead of people coming\n");
 }
 
-int sources_main(int argc, char **argv)
+static int list_sources(void)
 {
-    const option_def options[] = {{.name = "plugin", .kind = OPTION_PLUGIN}, {0}};
-    int status = options_parse("sources", argc, argv, options, print_help);
-    if (status >= 0) {
-        return status;
-    }
-    if (argc != optind) {
-        return command_usage("sources", "takes no SOURCE: `relief info SOURCE` tells about one");
-    }
     static kind_list list;
     list.count = rlf_source_kind_list(list.kinds, KINDS_MAX);
     list.count = list.count < KINDS_MAX ? list.count : KINDS_MAX;
@@ -184,4 +189,65 @@ int sources_main(int argc, char **argv)
         print_kinds(&list, is_absent);
     }
     return EXIT_DONE;
+}
+
+/* ---- scenes and settings -------------------------------------------------------------------- */
+
+static int list_scenes(void)
+{
+    static scene_entry entries[SCENES_MAX];
+    const int32_t count = scene_files_list(entries, SCENES_MAX);
+    int name = 0;
+    int source = 0;
+    if (count == 0) {
+        fprintf(stderr, "relief list: no scene was installed with this command: give --scene a "
+                        "file\n");
+        return EXIT_FAILED;
+    }
+    for (int32_t i = 0; i < count; i++) {
+        name = longer(strlen(entries[i].name), name);
+        source = longer(strlen(entries[i].source), source);
+    }
+    for (int32_t i = 0; i < count; i++) {
+        const scene_entry *e = &entries[i];
+        printf("%-*s  %-*s  %s\n", name, e->name, source, e->source[0] != '\0' ? e->source : "any",
+               e->about);
+    }
+    return EXIT_DONE;
+}
+
+static int list_settings(const char *source_name, bool lists_all)
+{
+    rlf_source *source = NULL;
+    if (rlf_open_source(source_name, NULL, &source) != RLF_OK) {
+        return command_failed();
+    }
+    settings_print(&rlf_source_get_info(source)->rig, lists_all);
+    rlf_source_destroy(&source);
+    return EXIT_DONE;
+}
+
+int list_main(int argc, char **argv)
+{
+    bool lists_all = false;
+    const option_def options[] = {ROW_FLAG("all", &lists_all), ROW_PLUGIN, {0}};
+    const int status = options_parse("list", argc, argv, options, print_help);
+    if (status >= 0) {
+        return status;
+    }
+    const char *what = optind < argc ? argv[optind] : "";
+    const char *more = optind + 1 < argc ? argv[optind + 1] : NULL;
+    const bool is_settings = strcmp(what, "settings") == 0;
+    if (argc - optind > (is_settings ? 2 : 1)) {
+        return command_usage("list", "takes no '%s'", is_settings ? argv[optind + 2] : more);
+    }
+    if (is_settings) {
+        return list_settings(more != NULL ? more : "synthetic:room", lists_all);
+    }
+    if (strcmp(what, "sources") == 0) {
+        return list_sources();
+    }
+    return strcmp(what, "scenes") == 0
+               ? list_scenes()
+               : command_usage("list", "'%s': use sources, scenes or settings", what);
 }

@@ -1,12 +1,8 @@
 /* Poses in the order of time. */
-#define _POSIX_C_SOURCE 200809L
-#include "fuse/trajectory.h"
+#include "trajectory.h"
 
-#include "relief/io.h"
 #include "relief/known.h"
 
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static bool grow(trajectory *t)
@@ -60,26 +56,6 @@ double trajectory_error(const trajectory *t)
     }
     rlf_free(places);
     return rms;
-}
-
-rlf_result trajectory_write(const trajectory *t, const char *path)
-{
-    char *text = NULL;
-    size_t size = 0;
-    FILE *file = open_memstream(&text, &size);
-    if (file == NULL) {
-        return rlf_fail(RLF_ERROR_MEMORY, "%s: not enough memory for it", path);
-    }
-    fprintf(file, "# time tx ty tz qx qy qz qw: seconds, metres; the camera in the world, which is "
-                  "the first camera's frame\n");
-    for (int32_t i = 0; i < t->count; i++) {
-        const rlf_pose *T = &t->found[i];
-        fprintf(file, "%.6f %.6f %.6f %.6f %.8f %.8f %.8f %.8f\n", (double)t->time_ns[i] * 1e-9,
-                T->p.x, T->p.y, T->p.z, T->q.x, T->q.y, T->q.z, T->q.w);
-    }
-    rlf_result result = fclose(file) == 0 ? rlf_file_write(path, text, size) : RLF_ERROR_MEMORY;
-    free(text);
-    return result;
 }
 
 void trajectory_free(trajectory *t)
