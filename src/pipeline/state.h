@@ -3,13 +3,49 @@
 #define RLF_PIPELINE_STATE_H
 
 #include "relief/pipeline.h"
+#include "relief/source.h"
 
-#include "pipeline/camera.h"
 #include "pipeline/far_side.h"
 #include "pipeline/hands.h"
 #include "pipeline/known.h"
+#include "pipeline/moving/moving.h"
 #include "pipeline/moving/room_view.h"
-#include "pipeline/push.h"
+
+/* Where the camera is: it stands, or it moves. */
+typedef struct camera {
+    rlf_pose T_world; /* of the newest frame */
+    rlf_pose T_stood; /* where it stands, or stood last */
+    bool has_stood;   /* the standing camera's stage remembers what it saw from there */
+    moving moving;
+    bool may_change;       /* it may begin to move, and stand again */
+    float *still;          /* AUTO: two planes, the background of a standing camera; else NULL */
+    float *room;           /* AUTO: a plane, what a camera that stands again begins with */
+    int64_t still_ns[2];   /* when each was kept */
+    int32_t still_count;   /* so often one was; they take turns */
+    rlf_pose T_source;     /* what the source said when the camera began to stand, */
+    bool has_source;       /* if it said anything */
+    bool is_prepared;      /* `moving` has seen the first frame, in case that it moves */
+    bool has_told;         /* that it moves, though it is to stand */
+    bool was_placed;       /* at any time */
+    bool rests;            /* while it moves: its view is as it was, since then: */
+    int64_t rest_ns;       /* the time, and */
+    rlf_pose T_rest;       /* where that was */
+    int32_t before_frames; /* in a row that show what it saw where it stood last */
+    int32_t taught_frames; /* of the room, to the standing camera's stage */
+} camera;
+
+/* Frames that are pushed: a source with room for one frame. */
+typedef struct pushed_frame {
+    rlf_source *source; /* gives `frame` once; NULL = the pipeline has a source of the caller's */
+    rlf_frame frame;
+    bool is_full;
+} pushed_frame;
+
+/* `slot` stays where it is until pushed_frame_close. */
+rlf_result pushed_frame_open(pushed_frame *slot, const rlf_rig *rig);
+/* The next frame; NULL = none. */
+void pushed_frame_put(pushed_frame *slot, const rlf_frame *frame);
+void pushed_frame_close(pushed_frame *slot);
 
 #define OVERLAY_LINES_MAX 32
 #define OVERLAY_LINE_SIZE 128

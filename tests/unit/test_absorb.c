@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "pipeline/moving/absorb.h"
+#include "pipeline/moving/moving.h"
 
 #define LABEL 7
 #define AFTER_S 2.0

@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "pipeline/moving/camera_pose.h"
+#include "pipeline/moving/moving.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,8 +3,7 @@
 #ifndef RELIEF_LAB_MAP_FUSER_H
 #define RELIEF_LAB_MAP_FUSER_H
 
-#include "pipeline/moving/camera_pose.h"
-#include "pipeline/moving/color_view.h"
+#include "pipeline/moving/moving.h"
 #include "relief/io.h"
 
 typedef struct fuser_options {

@@ -1,5 +1,5 @@
 /* Things that stand still, by their place in the room: labels end when a thing is half fused. */
-#include "pipeline/moving/absorb.h"
+#include "pipeline/moving/moving.h"
 
 #define STRAY_M 0.05       /* a centroid that stands: seen from elsewhere it shows another side */
 #define PART 1.1           /* sizes that differ by less are the same; no part is larger */

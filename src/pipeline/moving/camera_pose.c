@@ -1,5 +1,5 @@
 /* Predict, align, accept; after a lost track, poses that looked alike. */
-#include "pipeline/moving/camera_pose.h"
+#include "pipeline/moving/moving.h"
 
 #include "camera/pixels.h"
 

@@ -1,5 +1,5 @@
 /* Each depth pixel looks up its colour. */
-#include "pipeline/moving/color_view.h"
+#include "pipeline/moving/moving.h"
 
 #include <string.h>
 

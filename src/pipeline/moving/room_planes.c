@@ -2,7 +2,7 @@
  * four about a ray are continued to it, and the nearest counts.
  *
  * One over the depth at which a ray (x, y, 1) meets a plane is linear in x and y. */
-#include "pipeline/moving/room_planes.h"
+#include "pipeline/moving/moving.h"
 
 #define GRAIN 16 /* rows */
 

@@ -1,5 +1,5 @@
 /* Places that were free, or hidden by what has left, are not fused yet. */
-#include "pipeline/moving/settled.h"
+#include "pipeline/moving/moving.h"
 
 #include "camera/pixels.h"
 

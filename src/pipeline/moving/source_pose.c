@@ -1,5 +1,5 @@
 /* What a source says about its camera is checked before it is believed. */
-#include "pipeline/moving/source_pose.h"
+#include "pipeline/moving/moving.h"
 
 #include "relief/map.h"
 
