@@ -304,8 +304,8 @@ static track_ways ways_of(align_job *job, const track_sums *sums)
 static bool align_level(align_job *job, const level *l, track_sums *sums)
 {
     for (int32_t round = 0; round < l->rounds; round++) {
-        *sums =
-            track_sums_of(&job->tracker->points, l->stride, job->prediction, &job->T, &job->gate);
+        *sums = track_sums_of(&job->tracker->points, l->stride, job->prediction,
+                              job->tracker->plane_error, &job->T, &job->gate);
         if (sums->matched * l->stride * l->stride < LEAST_POINTS || !(sums->information > 0.0)) {
             return false;
         }
@@ -361,6 +361,7 @@ rlf_result rlf_tracker_align(rlf_tracker *tracker, const rlf_track_view *view,
     }
     align_job job = {.tracker = tracker, .view = view, .prediction = prediction};
     rlf_parallel_for(tracker->def.pool, tracker->points.height, 4, fill_points, &job);
+    track_find_plane_error(prediction, tracker->plane_error);
     const rlf_pose T_camera_world = rlf_pose_invert(&prediction->T_world_camera);
     job.T = rlf_pose_mul(&T_camera_world, start);
     job.gate = (track_gate){.metres = GATE_M, .cut = 1e9};
@@ -368,8 +369,8 @@ rlf_result rlf_tracker_align(rlf_tracker *tracker, const rlf_track_view *view,
     job.sigma = 1e9;
     job.reach = reach_of(&tracker->points);
     /* One that is far off pulls in no round. */
-    track_sums sums =
-        track_sums_of(&tracker->points, levels[0].stride, prediction, &job.T, &job.gate);
+    track_sums sums = track_sums_of(&tracker->points, levels[0].stride, prediction,
+                                    tracker->plane_error, &job.T, &job.gate);
     limit(&job.gate, &sums);
     for (int i = 0; i < LEVELS; i++) {
         if (!align_level(&job, &levels[i], &sums)) {

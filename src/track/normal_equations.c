@@ -43,7 +43,7 @@ typedef struct lanes {
     float u[LANES], v[LANES];
     int32_t is_in[LANES]; /* 1: in the prediction's picture */
     float qz[LANES], n[3][LANES];
-    float residual[LANES], deviation[LANES];
+    float residual[LANES], deviation[LANES], plane_error[LANES];
     int32_t is_matched[LANES];
     int32_t bin[LANES];
 } lanes;
@@ -108,7 +108,8 @@ RLF_KERNEL_PART void project(const view *c, const track_points *points, size_t f
 }
 
 /* How far the points are off the predicted planes, and whether that is within the gate. */
-RLF_KERNEL_PART void match(const view *c, const rlf_prediction *prediction, lanes *restrict l)
+RLF_KERNEL_PART void match(const view *c, const rlf_prediction *prediction,
+                           const float *plane_error, lanes *restrict l)
 {
     for (int32_t i = 0; i < LANES; i++) {
         const int32_t at = l->at[i];
@@ -116,6 +117,7 @@ RLF_KERNEL_PART void match(const view *c, const rlf_prediction *prediction, lane
         l->n[0][i] = prediction->normal_x[at];
         l->n[1][i] = prediction->normal_y[at];
         l->n[2][i] = prediction->normal_z[at];
+        l->plane_error[i] = plane_error[at];
     }
     RLF_KERNEL_WHOLE
     for (int32_t i = 0; i < LANES; i++) {
@@ -127,7 +129,8 @@ RLF_KERNEL_PART void match(const view *c, const rlf_prediction *prediction, lane
         const float residual = nx * (x - qx) + ny * (y - qy) + nz * (z - qz);
         /* Depth moves a point along its ray: so much of that is across the plane. */
         const float across = l->sigma[i] * facing / z, shared = SHARED_SIGMA * z * z;
-        const float deviation = sqrtf(across * across + shared * shared);
+        const float bent = l->plane_error[i];
+        const float deviation = sqrtf(across * across + shared * shared + bent * bent);
         const float size = rlf_kernel_abs(residual);
         const float bin = size / deviation * TRACK_BINS_PER_SIGMA;
         l->residual[i] = residual;
@@ -219,10 +222,45 @@ RLF_KERNEL_PART void add_grey(const view *c, const rlf_prediction *prediction,
     add_equations(l, (const float(*)[LANES])n, residual, w, sums->of + GREY);
 }
 
+/* How far the pixel (dx, dy) farther is off the plane of pixel (x, y); what is unknown, much. */
+static float off_plane(const rlf_prediction *p, int32_t x, int32_t y, int32_t dx, int32_t dy)
+{
+    const rlf_camera *c = &p->camera;
+    const int32_t i = y * c->width + x;
+    if (x + dx < 0 || y + dy < 0 || x + dx >= c->width || y + dy >= c->height ||
+        !(p->depth[i + dy * c->width + dx] > 0.0f)) {
+        return 1e9f;
+    }
+    const float z = p->depth[i], to = p->depth[i + dy * c->width + dx];
+    const float u = (float)x - (float)c->cx, v = (float)y - (float)c->cy;
+    const float off_x = ((u + (float)dx) * to - u * z) / (float)c->fx;
+    const float off_y = ((v + (float)dy) * to - v * z) / (float)c->fy;
+    return rlf_kernel_abs(p->normal_x[i] * off_x + p->normal_y[i] * off_y +
+                          p->normal_z[i] * (to - z));
+}
+
+void track_find_plane_error(const rlf_prediction *prediction, float *error)
+{
+    const rlf_camera *c = &prediction->camera;
+    for (int32_t y = 0; y < c->height; y++) {
+        for (int32_t x = 0; x < c->width; x++) {
+            const float left = off_plane(prediction, x, y, -1, 0);
+            const float right = off_plane(prediction, x, y, 1, 0);
+            const float above = off_plane(prediction, x, y, 0, -1);
+            const float below = off_plane(prediction, x, y, 0, 1);
+            const float row = left < right ? left : right, column = above < below ? above : below;
+            const float most = prediction->depth[y * c->width + x] / (float)c->fx;
+            const float off = row > column ? row : column;
+            error[y * c->width + x] = off < most ? off : most;
+        }
+    }
+}
+
 /* One row, into single precision: it is short. */
 RLF_KERNEL static void add_row(const view *c, const track_points *points, int32_t row,
                                int32_t stride, const rlf_prediction *prediction,
-                               lane_sums *restrict out, track_sums *restrict counts)
+                               const float *plane_error, lane_sums *restrict out,
+                               track_sums *restrict counts)
 {
     const int32_t columns = (points->width + stride - 1) / stride;
     lanes l = {.sigma = {0}};
@@ -230,7 +268,7 @@ RLF_KERNEL static void add_row(const view *c, const track_points *points, int32_
         const int32_t count = columns - column < LANES ? columns - column : LANES;
         const size_t first = (size_t)row * (size_t)points->width + (size_t)(column * stride);
         project(c, points, first, stride, count, &prediction->camera, &l);
-        match(c, prediction, &l);
+        match(c, prediction, plane_error, &l);
         add_depth(c, &l, out);
         for (int32_t i = 0; i < LANES; i++) {
             counts->tried += l.is_in[i];
@@ -248,15 +286,15 @@ RLF_KERNEL static void add_row(const view *c, const track_points *points, int32_
 }
 
 track_sums track_sums_of(const track_points *points, int32_t stride,
-                         const rlf_prediction *prediction, const rlf_pose *T,
-                         const track_gate *gate)
+                         const rlf_prediction *prediction, const float *plane_error,
+                         const rlf_pose *T, const track_gate *gate)
 {
     const view c = view_of(prediction, T, gate);
     track_sums out = {.tried = 0};
     double sum[TERMS][LANES] = {{0}}, total[TERMS] = {0};
     for (int32_t row = 0; row < points->height; row += stride) {
         lane_sums part = {.of = {{0}}};
-        add_row(&c, points, row, stride, prediction, &part, &out);
+        add_row(&c, points, row, stride, prediction, plane_error, &part, &out);
         for (int32_t k = 0; k < TERMS * LANES; k++) {
             sum[k / LANES][k % LANES] += (double)part.of[k / LANES][k % LANES];
         }

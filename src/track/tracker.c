@@ -33,6 +33,7 @@ static void take_all(void *context)
     t->points.z = arena_take(&t->arena, points + 1, sizeof(float));
     t->points.sigma = arena_take(&t->arena, points + 1, sizeof(float));
     t->points.grey = arena_take(&t->arena, points + 1, 1);
+    t->plane_error = arena_take(&t->arena, pixels, sizeof(float));
     t->keyframes = arena_take(&t->arena, TRACK_KEYFRAMES, sizeof(*t->keyframes));
 }
 

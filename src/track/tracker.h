@@ -35,6 +35,7 @@ struct rlf_tracker {
     rlf_arena arena;
     float *ray_x, *ray_y;
     track_points points;
+    float *plane_error; /* of the prediction: a pixel each, at most as many as the rig's */
     track_keyframe *keyframes;
     int32_t keyframe_count;
     /* The last two poses that were not lost. */
@@ -80,11 +81,16 @@ typedef struct track_gate {
     bool asks_grey; /* whether brightness is summed */
 } track_gate;
 
+/* How far a prediction is off being a plane at each pixel, metres: of its neighbours in a row and
+ * in a column, the nearer ones; at most a pixel's width. An outline has the normal of a rim that is
+ * not there, and would tell the camera's way along a wall from that. */
+void track_find_plane_error(const rlf_prediction *prediction, float *error);
+
 /* Of every `stride`-th point of every `stride`-th row. T: the frame's camera to the prediction's.
  */
 track_sums track_sums_of(const track_points *points, int32_t stride,
-                         const rlf_prediction *prediction, const rlf_pose *T,
-                         const track_gate *gate);
+                         const rlf_prediction *prediction, const float *plane_error,
+                         const rlf_pose *T, const track_gate *gate);
 
 /* ---- keyframes.c */
 /* Of planes of width x height; grey may be NULL. */
