@@ -251,7 +251,7 @@ void track_find_plane_error(const rlf_prediction *prediction, float *error)
             const float row = left < right ? left : right, column = above < below ? above : below;
             const float most = prediction->depth[y * c->width + x] / (float)c->fx;
             const float off = row > column ? row : column;
-            error[y * c->width + x] = off < most ? off : most;
+            error[y * c->width + x] = 0.5f * (off < most ? off : most); /* half a pixel away */
         }
     }
 }
