@@ -12,6 +12,7 @@
 #include <dirent.h>
 #include <math.h>
 #include <stdlib.h>
+#include <stdio.h>
 #include <string.h>
 
 #define OBJECT_PASSES 8
