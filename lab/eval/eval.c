@@ -9,7 +9,6 @@
 #include "eval/random/random.h"
 #include "eval/real/real.h"
 #include "eval/real/run.h"
-#include "eval/run.h"
 #include "eval/sections.h"
 #include "eval/table.h"
 #include "lab_commands.h"
@@ -39,22 +38,11 @@ static const struct {
     const char *name;
     section_fn run;
 } sections[] = {
-    {"picture", eval_picture_run},
-    {"simulator", eval_simulator_run},
-    {"planes", eval_planes_run},
-    {"plate", eval_plate_run},
-    {"physics", eval_physics_run},
-    {"known", eval_known_run},
-    {"start", eval_start_run},
-    {"moving", eval_moving_run},
-    {"standing", eval_standing_run},
-    {"memory", eval_memory_run},
-    {"hands", eval_hands_run},
-    {"gestures", eval_gestures_run},
-    {"calibration", eval_calibration_run},
-    {"map", eval_map_run},
-    {"map_cost", eval_map_cost_run},
-    {"sensed", eval_sensed_run},
+    {"picture", eval_picture_run},   {"physics", eval_physics_run},
+    {"known", eval_known_run},       {"moving", eval_moving_run},
+    {"standing", eval_standing_run}, {"hands", eval_hands_run},
+    {"gestures", eval_gestures_run}, {"calibration", eval_calibration_run},
+    {"map", eval_map_run},           {"sensed", eval_sensed_run},
 };
 
 static void print_help(void)
@@ -110,13 +98,8 @@ static int parse(int argc, char **argv, eval_options *o)
 
 static rlf_result run_named(const eval_options *o, eval_table *table, real_table *real)
 {
-    const eval_scene *scene = eval_scene_find(o->section);
-    if (scene != NULL) {
-        return eval_scene_run(table, scene, o->seed, o->frames > 0 ? o->frames : scene->frames,
-                              o->profile_mask, &o->settings);
-    }
     if (strcmp(o->section, EVAL_RANDOM) == 0) {
-        return eval_random_run(table, o->seed, o->frames, &o->settings);
+        return eval_random_run(table, o->seed);
     }
     if (strcmp(o->section, EVAL_RANDOM_PUSH) == 0) {
         return eval_random_push_run(table, o->seed);

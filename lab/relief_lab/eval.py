@@ -9,6 +9,7 @@ import sys
 
 from . import report, sections
 from .table import PROFILES, Table, read_bounds
+from .words import Parser, check_file, file_name, number_within, usage, write_file
 
 SEEDS_MAX = report.SEEDS_MAX
 PICTURE_FRAMES = 100  # of section picture by itself
@@ -55,26 +56,6 @@ examples:
 """
 
 
-def usage(text):
-    print("relief-lab eval: %s (see `relief-lab eval --help`)" % text, file=sys.stderr)
-    sys.exit(2)
-
-
-class Parser(argparse.ArgumentParser):
-    def error(self, message):
-        words = message.replace("argument ", "", 1)
-        usage(words.replace(": expected one argument", " needs a value"))
-
-
-def number_within(low, high):
-    def take(text):
-        value = int(text) if text.lstrip("-").isdigit() else None
-        if value is None or not low <= value <= high:
-            raise argparse.ArgumentTypeError("'%s': use a number from %d to %d" % (text, low, high))
-        return value
-    return take
-
-
 def section_name(text):
     if text not in sections.ALL:
         raise argparse.ArgumentTypeError("'%s': is not one of them: there are %s" % (text, ", ".join(sections.ALL)))
@@ -87,17 +68,11 @@ def profile_list(text):
     return PROFILES if text == "both" else (text,)
 
 
-def json_name(text):
-    if not text.endswith(".json"):
-        raise argparse.ArgumentTypeError("'%s': give a file that ends in .json" % text)
-    return text
-
-
 def parse(words):
-    p = Parser(add_help=False, allow_abbrev=False)
-    for name in ("--random", "--bounded", "--tune", "--help"):
+    names = "\n".join("                      %-11s %s" % item for item in sections.ALL.items())
+    p = Parser("eval", HELP.format(names=names))
+    for name in ("--random", "--bounded", "--tune"):
         p.add_argument(name, action="store_true")
-    p.add_argument("-h", dest="help", action="store_true")
     p.add_argument("--scene", type=section_name)
     p.add_argument("--without", type=section_name)
     p.add_argument("--rooms", type=number_within(1, SEEDS_MAX), default=20)
@@ -105,16 +80,12 @@ def parse(words):
     p.add_argument("--frames", type=number_within(20, 100000), default=0)
     p.add_argument("--threads", type=number_within(0, 64), default=0)
     p.add_argument("--profile", type=profile_list, default=PROFILES)
-    p.add_argument("--json", type=json_name)
+    p.add_argument("--json", type=file_name(".json"))
     p.add_argument("--silhouettes", default="out/silhouettes")
     p.add_argument("--set", action="append", default=[])
     for name in ("--normals", "--chessboards", "--real", "--oracle"):
         p.add_argument(name)
-    o = p.parse_args(words)
-    if o.help:
-        names = "\n".join("                      %-11s %s" % item for item in sections.ALL.items())
-        print(HELP.format(names=names), end="")
-        sys.exit(0)
+    o = p.parse(words)
     o.scene = "random" if o.random else o.scene
     check(o)
     return o
@@ -124,13 +95,10 @@ def check(o):
     known = ORACLES.get(o.scene, [])
     parts = known if o.oracle == "all" else (o.oracle or "").split(",") if o.oracle else []
     if o.oracle and (not parts or any(part not in known for part in parts)):
-        usage("--oracle is for --scene " + " and ".join("%s (%s)" % (k, ", ".join(v)) for k, v in ORACLES.items()))
+        usage("eval", "--oracle is for --scene " + " and ".join("%s (%s)" % (k, ", ".join(v)) for k, v in ORACLES.items()))
     if o.set:
         sections.check_settings(o.set)
-    if o.json:
-        folder = os.path.dirname(o.json) or "."
-        if not os.access(folder, os.W_OK):
-            raise sections.Failed("relief-lab eval: %s: cannot be written; check the folder" % o.json)
+    check_file("eval", o.json)
 
 
 def is_wanted(o, name, bounds):
@@ -220,5 +188,5 @@ def main(words):
     if o.json:
         data = {"machine": sections.machine(), "seeds": list(range(1, o.seeds + 1)), "outside": outside,
                 "figures": out.figures()}
-        report.write_json(o.json, {**data, "real": real} if o.real else data)
+        write_file("eval", o.json, report.json_text({**data, "real": real} if o.real else data))
     return 1 if outside else 0

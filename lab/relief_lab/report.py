@@ -2,8 +2,6 @@
 
 import json
 import math
-import os
-import sys
 
 from .table import NEVER, PROFILES, read_bounds, statistics
 
@@ -185,13 +183,5 @@ def without_nan(value):
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def write_json(path, data):
-    """Whole or not at all."""
-    part = path + ".part"
-    try:
-        with open(part, "w", encoding="utf-8") as file:
-            json.dump(without_nan(data), file, indent=2)
-            file.write("\n")
-        os.replace(part, path)
-    except OSError as error:
-        sys.exit("relief-lab eval: %s: %s" % (path, error.strerror))
+def json_text(data):
+    return json.dumps(without_nan(data), indent=2) + "\n"

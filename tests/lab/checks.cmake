@@ -2,7 +2,7 @@
 if(NOT TARGET relief_lab_program)
   return()
 endif()
-foreach(name test_bench test_bench_peers test_calibrate test_measure_noise test_eval test_eval_real
+foreach(name test_bench test_bench_peers test_calibrate test_eval_real
         test_eval_sections test_eval_sensed)
   relief_test(${PROJECT_SOURCE_DIR}/tests/lab/${name}.c lab)
   target_link_libraries(${name} PRIVATE relief_lab_sections relief_command relief_io relief)

@@ -1,0 +1,207 @@
+"""Measures on planes made here: each counts what it should."""
+
+import math
+import unittest
+from types import SimpleNamespace
+
+import numpy as np
+import relief
+
+from relief_lab import collisions, measures, noise, planes, solid, up
+from relief_lab.draws import Draws
+from relief_lab.points import Points
+
+OK, FILLED = measures.OK, measures.FILLED
+
+
+def surface(width, height, scale=1, **planes_given):
+    names = {"foreground": (np.uint8, 0), "reason": (np.uint8, OK), "depth": (np.float32, 2)}
+    made = {name: np.full((height, width), value, kind) for name, (kind, value) in names.items()}
+    normals = np.zeros((height, width, 3), np.float32)
+    normals[..., 2] = -1
+    return SimpleNamespace(width=width, height=height, scale_factor=scale, is_background_known=True, normals=normals,
+                           **{**made, **planes_given})
+
+
+def truth_of(width, height, depth=2.0):
+    normals = np.zeros((height, width, 3), np.float32)
+    normals[..., 2] = -1
+    return {"depth": np.full((height, width), depth, np.float32), "normals": normals,
+            "foreground": np.zeros((height, width), np.uint8), "poses": []}
+
+
+def view(s, truth, band=None, is_first=True, time=0.0):
+    rig = SimpleNamespace(depth_range=(0.5, 4.5), noise=(0.001, 0.0, 0.001))
+    band = np.zeros(truth["depth"].shape, bool) if band is None else band
+    return measures.View(s, truth, truth["depth"], band, rig, time, is_first)
+
+
+class Shares(unittest.TestCase):
+    def test_reason_codes_are_reliefs(self):
+        self.assertEqual((relief.reason_names[OK], relief.reason_names[FILLED]), ("ok", "filled"))
+
+    def test_nothing_measured_is_no_figure(self):
+        self.assertTrue(math.isnan(measures.percent(0, 0)))
+        self.assertTrue(math.isnan(measures.Angles().mean()) and math.isnan(measures.Angles().median()))
+
+    def test_angles_give_mean_median_and_shares(self):
+        a = measures.Angles()
+        a.add(np.array([1.0, 2.0, 3.0, 50.0]))
+        a.missing = 1
+        self.assertEqual((a.mean(), a.wrong_percent(), a.missing_percent()), (14.0, 25.0, 20.0))
+        self.assertAlmostEqual(a.median(), 2.005)
+        self.assertEqual(a.within_percent(10.0), 75.0)
+
+
+class Surfaces(unittest.TestCase):
+    def test_band_is_six_pixels_on_both_sides_of_a_jump(self):
+        depth = np.full((30, 40), 2.0, np.float32)
+        depth[:, 20:] = 3.0
+        band = measures.mark_band(depth)
+        self.assertTrue(band[:, 13:27].all() and not band[:, :13].any() and not band[:, 27:].any())
+
+    def test_other_sides_are_counted_and_not_in_the_rms(self):
+        depth = np.full((10, 10), 2.0, np.float32)
+        depth[0, 0], depth[0, 1], depth[0, 2] = 2.01, 2.5, 0.0
+        truth = truth_of(10, 10)
+        truth["depth"][0, 0:1] = 2.0
+        d = measures.Depth()
+        d.add(view(surface(10, 10, depth=depth), truth))
+        seen = d.groups["moving"]["seen"]
+        self.assertEqual((seen.pixels, seen.missing, seen.other_side, seen.flying), (100, 1, 1, 1))
+        self.assertAlmostEqual(seen.rms_mm(), 1000.0 * math.sqrt(0.01 ** 2 / 98), places=3)
+
+    def test_a_pixel_beside_its_edge_is_not_flying(self):
+        truth = truth_of(10, 10)
+        truth["depth"][:, 5:] = 3.0
+        depth = truth["depth"].copy()
+        depth[4, 5] = 2.0
+        d = measures.Depth()
+        d.add(view(surface(10, 10, depth=depth), truth))
+        seen = d.groups["moving"]["seen"]
+        self.assertEqual((seen.other_side, seen.flying), (1, 0))
+
+    def test_decimated_normals_meet_the_right_truth(self):
+        truth = truth_of(32, 16)
+        truth["normals"][::2, ::2] = (1, 0, 0)
+        s = surface(16, 8, scale=2)
+        s.normals[...] = (1, 0, 0)
+        n = measures.Normals()
+        n.add(view(s, truth))
+        self.assertEqual((n.interior.count, n.interior.mean()), (128, 0.0))
+
+    def test_foreground_counts_hits_and_misses(self):
+        truth = truth_of(10, 10)
+        truth["foreground"][0, :4] = 1
+        s = surface(10, 10)
+        s.foreground[0, 1:6] = 1
+        f = measures.Foreground()
+        f.add(view(s, truth))
+        self.assertEqual((f.all.hits, f.all.false, f.all.lost, f.all.rest), (3, 2, 1, 94))
+        self.assertAlmostEqual(f.figures()["foreground_f"], 6 / 9)
+
+    def test_centre_is_the_thesis_grid_for_every_scale(self):
+        for scale in (1, 2, 4, 8):
+            truth = truth_of(512, 424)
+            truth["foreground"][:50] = 1
+            s = surface(512 // scale, 424 // scale, scale)
+            s.normals[0] = 0
+            c = measures.Centre()
+            c.add(view(s, truth))
+            self.assertEqual((c.points, c.wrong, c.missing), (56 * 47, 0, 0))
+
+    def test_missing_points_fall_into_the_four_cases(self):
+        p, s = Points(), surface(64, 53)
+        s.reason[0, 0], s.reason[26, 32] = 3, 3
+        p.add(s)
+        s.foreground[:10] = 1
+        p.add(s)
+        self.assertEqual([p.cases[c].missing() for c in "abcd"], [2.0, 1.0, 2.0, 1.0])
+        self.assertEqual([p.cases[c].points for c in "abcd"], [3392, 2632, 3392, 2632])
+
+    def test_phantoms_are_looked_for_after_three_frames(self):
+        p, truth = solid.Phantoms(), truth_of(4, 4)
+        s = surface(4, 4, background_depth=np.full((4, 4), 2.0, np.float32))
+        for k in range(6):
+            truth["background_depth"] = np.full((4, 4), 2.0 if k < 2 else 3.0, np.float32)
+            p.add(view(s, truth))
+        self.assertEqual((p.seen[3], p.left[3], p.seen[30]), (16, 16, 0))
+
+
+class Bounces(unittest.TestCase):
+    def setUp(self):
+        self.source = relief.open("synthetic:empty?noise=0&color=0&frames=1&seed=1")
+        next(self.source)
+
+    def test_scene_is_the_same_for_a_seed(self):
+        self.assertEqual(collisions.scene_of(3, 5), collisions.scene_of(3, 5))
+        self.assertNotEqual(collisions.scene_of(3, 5), collisions.scene_of(4, 5))
+
+    def test_every_direction_between_the_faces_of_an_edge_is_right(self):
+        left, top = 0.59, 0.565  # of the table's top
+        for x, nx, ny, wanted in ((0, -1, -1, "right"), (0, -1, -3, "right"), (0, 0, -1, "right"),
+                                  (0, 1, -1, "unexplained"), (0.005, -1, -1, "right"), (0.02, -1, -1, "near"),
+                                  (0.10, -1, -1, "unexplained"), (0.10, -0.15, -1, "right"), (0.10, -0.2, -1, "near")):
+            b = collisions.Collisions(self.source)
+            b.judge(np.array((left + x, top, 2.57)), np.array((nx, ny, 0.0)) / math.hypot(nx, ny))
+            found = "right" if b.right else "unexplained" if b.unexplained else "near"
+            self.assertEqual((found, b.phantom), (wanted, 0), (x, nx, ny))
+
+    def test_bounces_are_measured_where_they_are(self):
+        truth, c = self.source.truth, self.source.rig.depth
+        y, x = c.height - 20, c.width // 2
+        z = float(truth["depth"][y, x])
+        point = np.array(((x - c.cx) / c.fx * z, (y - c.cy) / c.fy * z, z))
+        normal = truth["normals"][y, x].astype(float)
+        b = collisions.Collisions(self.source)
+        b.judge(point, normal)
+        b.judge(point + 0.03 * normal, normal)
+        b.judge(point + 0.3 * normal, normal)
+        self.assertEqual((b.bounces, b.phantom, b.right, b.angles.count), (3, 1, 2, 2))
+        self.assertAlmostEqual(b.figures()["bounces_off_mm"], 15.0, places=1)
+        b.judge(point, np.array((0.0, 0.0, -1.0)))
+        self.assertEqual((b.angles.wrong, b.right), (1, 2))
+
+
+class Noises(unittest.TestCase):
+    def test_noise_is_found_at_every_step(self):
+        draws = Draws(99)
+        z = planes.plane_depth(np.array((0.1, 0.1, -0.98)), -2.2)[:120, :160]
+        z[:, 60:80] -= 0.6
+        n = noise.Noise()
+        for _ in range(4):
+            depth = (z + 0.004 * draws.normals(z.size).reshape(z.shape)).astype(np.float32)
+            depth[draws.uniforms(z.size).reshape(z.shape) < 0.1] = 0
+            n.add(SimpleNamespace(depth=depth))
+        for kind in noise.KINDS:
+            self.assertAlmostEqual(n.sigma(kind, 4), 0.004, delta=0.0004)
+        self.assertTrue(9.5 < n.missing_percent() < 10.5)
+        self.assertTrue(math.isnan(n.sigma("step_1", 12)))  # nothing is that far
+
+
+class Draw(unittest.TestCase):
+    def test_many_numbers_are_those_one_after_the_other(self):
+        many, single = Draws(7), Draws(7)
+        self.assertEqual(list(many.normals(3000)), [single.normal() for _ in range(3000)])
+        self.assertEqual(many.uniform(), single.uniform())
+
+
+class Turns(unittest.TestCase):
+    def test_cameras_turn_with_their_pictures(self):
+        rig = relief.Rig(relief.Camera(64, 48, 50, 55, 30, 20))
+        point = np.array((0.2, -0.1, 1.5))
+        u, v = rig.depth.project([point])[0]
+        picture = np.zeros((48, 64), np.float32)
+        picture[round(v), round(u)] = 1
+        for name, turn in up.TURNS.items():
+            with self.subTest(name):
+                swaps, mirrors_x, mirrors_y = turn
+                x, y = (point[1], point[0]) if swaps else (point[0], point[1])
+                turned = np.array((-x if mirrors_x else x, -y if mirrors_y else y, point[2]))
+                self.assertTrue(np.allclose(up.unturned(turned, turn), point))
+                u2, v2 = up.turned_rig(rig, turn).depth.project([turned])[0]
+                self.assertEqual(up.turned_depth(picture, turn)[round(v2), round(u2)], 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
