@@ -52,7 +52,7 @@ static void print_help(void)
         "One section of relief-lab eval with one seed, its rows as text; \"machine\" tells what\n"
         "it runs on. The options are those of relief-lab eval but\n"
         "  --seed N          of noise and throws\n"
-        "  --folder DIR      the files of sections normals, chessboards and real\n"
+        "  --folder DIR      the files of sections chessboards and real\n"
         "  --whole           section picture: every method on every frame\n");
 }
 
@@ -103,9 +103,6 @@ static rlf_result run_named(const eval_options *o, eval_table *table, real_table
     }
     if (strcmp(o->section, EVAL_RANDOM_PUSH) == 0) {
         return eval_random_push_run(table, o->seed);
-    }
-    if (strcmp(o->section, "normals") == 0 && o->folder != NULL) {
-        return eval_public_run(table, o->folder, o->profile_mask);
     }
     if (strcmp(o->section, "chessboards") == 0 && o->folder != NULL) {
         return eval_chessboards_run(table, o->folder);

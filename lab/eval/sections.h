@@ -4,8 +4,6 @@
 
 #include "eval/table.h"
 
-/* Clean depth with true normals: every frame below `folder`; see lab/measuring.md. */
-rlf_result eval_public_run(eval_table *table, const char *folder, int profile_mask);
 /* Free flight, collisions between bodies, and bodies on sensed planes that move or rest. */
 rlf_result eval_physics_run(eval_table *table, int64_t seed, int profile_mask);
 /* Physics on what the synthetic sensor shows, against the true scene. */

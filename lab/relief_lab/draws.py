@@ -23,22 +23,22 @@ class Draws:
         self.state = (seed * 0x9E3779B97F4A7C15 + 1) & MASK
 
     def uniform(self):
+        return self._whole() / 9007199254740992.0
+
+    def _whole(self):
         x = self.state
         x ^= x >> 12
         x ^= (x << 25) & MASK
         x ^= x >> 27
         self.state = x
-        return ((x * STAR & MASK) >> 11) / 9007199254740992.0
+        return (x * STAR & MASK) >> 11
 
     def range(self, low, high):
         return low + (high - low) * self.uniform()
 
     def normal(self):
-        """Twelve uniform numbers have variance 1."""
-        total = -6.0
-        for _ in range(12):
-            total += self.uniform()
-        return total
+        """Twelve uniform numbers have variance 1; their sum is exact in whole numbers."""
+        return sum(self._whole() for _ in range(12)) / 9007199254740992.0 - 6.0
 
     def in_box(self, low, high):
         return [self.range(a, b) for a, b in zip(low, high)]
@@ -53,12 +53,10 @@ class Draws:
             cls._jumps[count] = [int(b) for b in bits]
         return cls._jumps[count]
 
-    def uniforms(self, count):
-        """The next `count` at once: lanes that each begin where the one before ends."""
-        steps = -(-count // LANES)
-        images = self._jump(steps)
+    def _lanes(self, steps):
+        """States of lanes that each begin `steps` after the one before."""
+        images, x = self._jump(steps), self.state
         starts = np.empty(LANES, np.uint64)
-        x = self.state
         for lane in range(LANES):
             starts[lane] = x
             y = 0
@@ -67,17 +65,27 @@ class Draws:
                 y ^= images[low.bit_length() - 1]
                 x ^= low
             x = y
-        out = np.empty((steps, LANES), np.uint64)
-        for k in range(steps):
-            starts = out[k] = _step(starts)
-        out = np.ascontiguousarray(out.T).reshape(-1)[:count]
-        self.state = int(out[-1])
-        return ((out * np.uint64(STAR)) >> np.uint64(11)) / 9007199254740992.0
+        return starts
+
+    def _sums(self, count, terms):
+        """The next `count` sums of so many whole numbers."""
+        rows = -(-count // LANES)
+        x = self._lanes(rows * terms)
+        last_lane, last_step = divmod(count * terms - 1, rows * terms)
+        out = np.zeros((LANES, rows), np.uint64)
+        total = np.zeros(LANES, np.uint64)
+        for row in range(rows):
+            total[:] = 0
+            for term in range(terms):
+                x = _step(x)
+                total += (x * np.uint64(STAR)) >> np.uint64(11)
+                if row * terms + term == last_step:
+                    self.state = int(x[last_lane])
+            out[:, row] = total
+        return out.reshape(-1)[:count]
+
+    def uniforms(self, count):
+        return self._sums(count, 1) / 9007199254740992.0
 
     def normals(self, count):
-        """The next `count` normal numbers, summed in the order of one after the other."""
-        u = self.uniforms(12 * count).reshape(count, 12)
-        total = np.full(count, -6.0)
-        for k in range(12):
-            total += u[:, k]
-        return total
+        return self._sums(count, 12) / 9007199254740992.0 - 6.0

@@ -109,6 +109,18 @@ def is_wanted(o, name, bounds):
     return not has_files and name != o.without and (has_bounds or not o.bounded)
 
 
+def frame_folders(folder):
+    """Of rendered depth with true normals."""
+    try:
+        names = sorted(n for n in os.listdir(folder) if not n.startswith("."))
+    except OSError as error:
+        raise sections.Failed("relief-lab eval: %s: is not a folder that can be read" % folder) from error
+    paths = [p for p in (os.path.join(folder, n) for n in names) if os.path.isdir(p)]
+    if not paths:
+        raise sections.Failed("relief-lab eval: %s: holds no folders with depth.bin, normal.png and params.txt" % folder)
+    return paths
+
+
 def room_seeds(o):
     """Even seeds are for tuning, odd ones are reported."""
     return [2 * i + (2 if o.tune else 1) for i in range(o.rooms)]
@@ -127,9 +139,10 @@ def tasks_of(o):
     room = o.scene if o.scene in sections.RANDOM else "random"
     if is_wanted(o, room, bounds) and not o.bounded:
         out += [sections.Task(room, seed, ("live",), **more) for seed in room_seeds(o)]
-    for name, folder in (("normals", o.normals), ("chessboards", o.chessboards)):
-        if folder:
-            out.append(sections.Task(name, 1, o.profile, folder=folder))
+    if o.normals:
+        out += [sections.Task("normals", 1, o.profile, folder=folder) for folder in frame_folders(o.normals)]
+    if o.chessboards:
+        out.append(sections.Task("chessboards", 1, o.profile, folder=o.chessboards))
     if o.real and os.path.isdir(o.real):
         out.append(sections.Task("real", 1, ("live",), folder=o.real, silhouettes=o.silhouettes))
     elif o.real:

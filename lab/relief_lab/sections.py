@@ -38,7 +38,7 @@ RANDOM = {
 ALL = {**SCENES, **OTHERS, **RANDOM}
 
 # Those in Python: function run(task) of the module gives rows of (scene, key, title, profile, value).
-MODULES = {**dict.fromkeys((*SCENES, "random"), "rooms"), "simulator": "points", "planes": "planes", "plate": "planes"}
+MODULES = {**dict.fromkeys((*SCENES, "random"), "rooms"), "simulator": "points", "planes": "planes", "plate": "planes", "normals": "public"}
 
 SECTIONS_PROGRAM = os.environ.get("RELIEF_LAB_SECTIONS", "")
 
