@@ -38,7 +38,10 @@ RANDOM = {
 ALL = {**SCENES, **OTHERS, **RANDOM}
 
 # Those in Python: function run(task) of the module gives rows of (scene, key, title, profile, value).
-MODULES = {**dict.fromkeys((*SCENES, "random"), "rooms"), "simulator": "points", "planes": "planes", "plate": "planes", "normals": "public"}
+MODULES = {**dict.fromkeys((*SCENES, "random"), "rooms"), "simulator": "points", "planes": "planes", "plate": "planes", "normals": "public",
+           "real": "real"}
+
+HALVES = ("random", "real")  # the rest of them is in C: throws and pushes, and what real.py names
 
 SECTIONS_PROGRAM = os.environ.get("RELIEF_LAB_SECTIONS", "")
 
@@ -100,9 +103,9 @@ def run(task):
     rows, real = [], []
     if task.section in MODULES:
         module = importlib.import_module("relief_lab." + MODULES[task.section])
-        rows = list(module.run(task))
-        if task.section != "random":  # whose throws and pushes are in C
-            return rows, real
+        (real if task.section == "real" else rows).extend(module.run(task))
+    if task.section in MODULES and task.section not in HALVES:
+        return rows, real
     for line in run_program(task.words()).splitlines():
         kind, *words = line.split("\t")
         if kind == "row":

@@ -194,6 +194,18 @@ py::object read_png(const py::object &path)
     return out;
 }
 
+// 8 bits a channel, of a PNG or a JPEG.
+py::object read_picture(const py::object &path)
+{
+    const std::string text = path_from(path, "path", "the path of a picture");
+    rlf_image_rgba8 image = {};
+    check(rlf_picture_read(text.c_str(), &image));
+    const py::array_t<uint8_t> out({py::ssize_t(image.height), py::ssize_t(image.width), py::ssize_t(4)},
+                                   {py::ssize_t(image.stride), py::ssize_t(4), py::ssize_t(1)}, image.data);
+    rlf_free(image.data);
+    return out;
+}
+
 } // namespace
 
 SourceOwner::~SourceOwner()
@@ -259,6 +271,7 @@ void bind_source(py::module_ &m)
         .def("__exit__", [](Source &s, const py::args &) { s.close(); });
     m.def("read_png", &read_png, py::arg("path"),
           "A PNG of 16 bits a channel as uint16: (H, W) of grey, (H, W, 3) of colour.");
+    m.def("read_picture", &read_picture, py::arg("path"), "A PNG or JPEG as (H, W, 4) uint8, RGBA.");
     m.def(
         "open",
         [](const py::object &name, int threads) { return std::make_unique<Source>(name, threads); },

@@ -200,6 +200,8 @@ void bind_surface(py::module_ &m)
         .def_property_readonly("background_thickness",
                                of([](P p) { return p.plane(p.s->background_thickness); }),
                                "(H, W) float32, solid behind background_depth; 0 = unknown.")
+        .def_property_readonly("background_label", of([](P p) { return p.plane(p.s->background_label); }),
+                               "(H, W) int32, as label, of the room behind what moves.")
         .def_property_readonly(
             "is_background_known",
             of([](P p) { return p.s->background_state == RLF_BACKGROUND_READY; }),

@@ -118,9 +118,12 @@ for command in "eval --scene room" "bench --frames 100000" "measure synthetic:ro
     "$lab" $command --json kept.json >stdout.txt 2>stderr.txt &
     pid=$!
     # A signal that comes before the program listens is lost.
-    (for pause in 3 10 30 60; do sleep $pause && kill -INT $pid 2>/dev/null || break; done) &
+    (for pause in 3 10 30 60; do sleep $pause && kill -INT $pid || break; done) >/dev/null 2>&1 &
+    killer=$!
     wait $pid
-    [ $? -eq 130 ] || fail "interrupted $command: status is not 130"
+    status=$?
+    kill $killer 2>/dev/null
+    [ $status -eq 130 ] || fail "interrupted $command: status is not 130"
     tail -n 1 stderr.txt | grep -q "nothing was written" || fail "interrupted $command: $(cat stderr.txt)"
     [ "$(cat kept.json)" = "{}" ] && ! ls ./*.part >/dev/null 2>&1 || fail "interrupted $command: kept.json"
 done

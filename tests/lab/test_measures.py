@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import relief
 
-from relief_lab import collisions, measures, noise, planes, solid, up
+from relief_lab import clips, collisions, fit, measures, noise, planes, real_fill, real_objects, solid, up
 from relief_lab.draws import Draws
 from relief_lab.points import Points
 
@@ -201,6 +201,43 @@ class Turns(unittest.TestCase):
                 self.assertTrue(np.allclose(up.unturned(turned, turn), point))
                 u2, v2 = up.turned_rig(rig, turn).depth.project([turned])[0]
                 self.assertEqual(up.turned_depth(picture, turn)[round(v2), round(u2)], 1)
+
+
+class Real(unittest.TestCase):
+    def test_planes_and_components_are_found(self):
+        up_vector = np.array((0.1, -0.8, -0.6)) / np.linalg.norm((0.1, -0.8, -0.6))
+        x, y = np.meshgrid((np.arange(120) - 60) / 100.0, (np.arange(100) - 50) / 100.0 + 0.6)
+        depth = -1.0 / (up_vector[0] * x + up_vector[1] * y + up_vector[2])
+        things = np.zeros(depth.shape, bool)
+        things[40:60] = np.arange(120) // 20 % 2 == 1
+        depth = np.where(things, 0.8 * depth, depth).astype(np.float32)
+        n, d = fit.find_plane(fit.Points(depth, (x.astype(np.float32), y.astype(np.float32)), (0.001, 0, 0)))
+        self.assertTrue(n @ up_vector > 0.999999 and abs(d + 1.0) < 1e-3)
+        self.assertEqual(fit.components(depth, things, 0.02).max(), 3)
+
+    def test_best_region_is_found(self):
+        truth, labels = np.array((2, 2, 2, 2, 3, 3, 0, 0)), np.array((1, 1, 1, 2, 2, 2, 2, 0))
+        self.assertEqual([real_objects.best_iou(truth == k, labels) for k in (2, 3)], [0.75, 0.5])
+
+    def test_a_point_seen_by_the_turned_camera_is_the_turned_point(self):
+        camera = relief.Camera(640, 480, 520, 530, 318, 255, "plumb_bob", (0.26, -0.95, -0.005, 0.0026, 1.16))
+        point = np.array((0.2, 0.15, 1.0))
+        u, v = camera.project([point])[0]
+        picture = np.zeros((480, 640), np.uint16)
+        picture[round(v), round(u)] = 1
+        for turn in range(8):
+            turned = turn % 4, turn >= 4
+            pixel = clips.turn_camera(camera, *turned).project([clips.turn_matrix(*turned) @ point])[0]
+            y, x = np.argwhere(clips.turn_picture(picture, *turned))[0]
+            self.assertTrue(np.all(np.abs(pixel - (x, y)) <= 0.5 + 1e-9), turn)
+
+    def test_three_pixels_beside_a_step_are_hidden(self):
+        mean = np.full((1, 20), 2.0, np.float32)
+        mean[0, 10:] = 3.0
+        for is_far, hidden in ((True, (10, 11, 12)), (False, (7, 8, 9))):
+            mark = np.zeros(mean.shape, bool)
+            real_fill.mark_steps(mean, mark, is_far)
+            self.assertEqual(tuple(np.flatnonzero(mark)), hidden)
 
 
 if __name__ == "__main__":
