@@ -31,12 +31,19 @@ def run(command, words):
         return importlib.import_module("relief_lab." + command).main(words)
     except sections.Failed as error:
         print(error, file=sys.stderr)
-        return error.status
+        return leave(error.status)
     except KeyboardInterrupt:
         print("relief-lab %s: stopped; nothing was written" % command, file=sys.stderr)
-        return 128 + signal.SIGINT
+        return leave(128 + signal.SIGINT)
     except (RuntimeError, OSError, ValueError) as error:
         return refuse(error)
+
+
+def leave(status):
+    """At once: processes that were ended have left nothing to wait for."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(status)
 
 
 def refuse(error):

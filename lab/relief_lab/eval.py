@@ -1,11 +1,13 @@
 """relief-lab eval: every accuracy figure, both profiles side by side, against its goal and its bound."""
 
 import argparse
+import concurrent.futures
 import math
 import multiprocessing
 import os
 import signal
 import sys
+import threading
 
 from . import report, sections
 from .table import PROFILES, Table, read_bounds
@@ -150,13 +152,23 @@ def tasks_of(o):
     return out
 
 
+IS_ENDING = threading.Event()  # of this process
+
+
+def end_process(*_):
+    """Ends the program that runs; tasks that come after it do nothing."""
+    IS_ENDING.set()
+    sys.exit(1)
+
+
 def start_process():
-    """Ends with the program that it runs when the pool does."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
+    signal.signal(signal.SIGTERM, end_process)
 
 
 def run_task(task):
+    if IS_ENDING.is_set():
+        return [], [], "ended"
     try:
         return *sections.run(task), None
     except Exception as error:  # what a process cannot hand over whole
@@ -168,15 +180,24 @@ def run_all(tasks, threads):
     table, real = Table(), []
     if not tasks:
         return table, real
-    with multiprocessing.Pool(min(threads or os.cpu_count() or 1, len(tasks)), start_process) as pool:
-        pending = [pool.apply_async(run_task, (task,)) for task in reversed(tasks)]
-        for task, result in zip(tasks, reversed(pending)):
-            rows, more, error = result.get()
+    count = min(threads or os.cpu_count() or 1, len(tasks))
+    executor = concurrent.futures.ProcessPoolExecutor(count, initializer=start_process)
+    pending = [executor.submit(run_task, task) for task in reversed(tasks)]
+    try:
+        for task, future in zip(tasks, reversed(pending)):
+            rows, more, error = future.result()
             if error:
                 raise sections.Failed(error)
             table.merge(rows)
             real += more
             print("%s, seed %d done" % (task.section, task.seed), file=sys.stderr)
+    except BaseException:
+        for process in multiprocessing.active_children():
+            process.terminate()  # which ends the program that it runs
+            process.join(1)
+            process.kill()
+        raise
+    executor.shutdown()
     return table, real
 
 
