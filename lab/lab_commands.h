@@ -4,7 +4,6 @@
 #define RELIEF_LAB_LAB_COMMANDS_H
 
 int eval_main(int argc, char **argv);
-int measure_main(int argc, char **argv);
 int bench_main(int argc, char **argv);
 
 #endif

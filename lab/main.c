@@ -6,7 +6,6 @@
 
 static const subcommand commands[] = {
     {"eval", eval_main, "accuracy where the truth is known, against goals and bounds"},
-    {"measure", measure_main, "missing points and wrong normals: table 5.1 of the thesis"},
     {"bench", bench_main, "time and memory of every stage, and how they grow"},
     {NULL, NULL, NULL},
 };

@@ -1,6 +1,10 @@
 // The frame loop.
 #include "bind.hpp"
 
+extern "C" {
+#include "settings.h"
+}
+
 namespace
 {
 
@@ -31,7 +35,8 @@ class Pipeline
   public:
     Pipeline(const py::object &source, const py::object &scene, const std::string &profile,
              const std::string &camera, const std::string &poses, const py::object &gravity,
-             bool render, bool hands, bool grab, int threads)
+             bool render, bool hands, bool grab, int threads, const py::dict &settings,
+             int scale)
         : owner_(std::make_shared<PipelineOwner>())
     {
         owner_->pool = make_pool(threads);
@@ -40,6 +45,10 @@ class Pipeline
         owner_->rig = def.reconstruct.rig;
         def.camera = static_cast<rlf_camera_mode>(choice_from(camera, modes, "camera"));
         def.poses = static_cast<rlf_pose_origin>(choice_from(poses, origins, "poses"));
+        if (scale != 0) {
+            set_scale(scale, &def.reconstruct);
+        }
+        apply(settings, &def.reconstruct);
         def.enable_render = render;
         def.enable_hands = hands;
         def.world.enable_grab = grab;
@@ -191,6 +200,32 @@ class Pipeline
     py::object on_contact = py::none(), on_hand = py::none();
 
   private:
+    // The same smallest region on another grid.
+    static void set_scale(int scale, rlf_reconstruct_def *def)
+    {
+        if (scale < 1 || scale > 64) {
+            throw py::value_error("scale: use a number from 1 to 64, or 0 for the profile's");
+        }
+        const double ratio = static_cast<double>(def->scale_factor) / scale;
+        const double points = def->min_region_points * ratio * ratio;
+        def->min_region_points = points < 1.0 ? 1 : static_cast<int32_t>(points + 0.5);
+        def->scale_factor = scale;
+    }
+
+    // As `--set NAME=VALUE` of the command.
+    static void apply(const py::dict &settings, rlf_reconstruct_def *def)
+    {
+        setting_list list = {};
+        for (const auto &item : settings) {
+            const bool is_switch = py::isinstance<py::bool_>(item.second);
+            const std::string value = !is_switch                     ? py::str(item.second)
+                                      : item.second.cast<bool>() ? "on"
+                                                                     : "off";
+            check(settings_add(&list, (std::string(py::str(item.first)) + "=" + value).c_str()));
+        }
+        settings_apply(&list, def);
+    }
+
     rlf_pipeline_def start(const py::object &source, rlf_profile profile, int threads)
     {
         if (py::isinstance<rlf_rig>(source)) {
@@ -308,14 +343,15 @@ void bind_pipeline(py::module_ &m)
         py::custom_type_setup(&let_collect))
         .def(py::init<const py::object &, const py::object &, const std::string &,
                       const std::string &, const std::string &, const py::object &, bool, bool,
-                      bool, int>(),
+                      bool, int, const py::dict &, int>(),
              py::arg("source"), py::kw_only(), py::arg("scene") = py::none(),
              py::arg("profile") = "live", py::arg("camera") = "auto", py::arg("poses") = "tracked",
              py::arg("gravity") = py::none(), py::arg("render") = true, py::arg("hands") = false,
-             py::arg("grab") = false, py::arg("threads") = 0,
+             py::arg("grab") = false, py::arg("threads") = 0, py::arg("settings") = py::dict(), py::arg("scale") = 0,
              "source: a name as for open(), a Source, or a Rig or Camera whose frames are pushed. "
              "scene: the path of a scene.json. gravity: m/s^2, world. hands: looks for them. grab: "
-             "hands hold what they close on. threads 0 = one per processor.")
+             "hands hold what they close on. threads 0 = one per processor. settings: of the surface in "
+             "place of the profile's, as {\"hold\": False}; `relief settings` lists them. scale: every so many pixels have a point; 0 = the profile's.")
         .def("step", &Pipeline::step, "The next Step; None when a live camera has nothing new.")
         .def("push", &Pipeline::push, py::arg("depth"), py::arg("color") = py::none(),
              py::kw_only(), py::arg("time"), py::arg("units_per_metre") = 1000.0,

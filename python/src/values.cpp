@@ -79,6 +79,24 @@ rlf_rig make_rig(const rlf_camera &depth, const py::object &color, const py::obj
     return rig;
 }
 
+using Points = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+py::array_t<double> project(const rlf_camera &camera, const Points &points)
+{
+    if (points.ndim() != 2 || points.shape(1) != 3) {
+        throw py::value_error("points: use an array (N, 3) of metres");
+    }
+    py::array_t<double> out({points.shape(0), py::ssize_t(2)});
+    for (py::ssize_t i = 0; i < points.shape(0); i++) {
+        double *pixel = out.mutable_data(i);
+        if (!rlf_camera_project(&camera, {points.at(i, 0), points.at(i, 1), points.at(i, 2)}, pixel,
+                                pixel + 1)) {
+            pixel[0] = pixel[1] = NAN;
+        }
+    }
+    return out;
+}
+
 void bind_camera(py::module_ &m)
 {
     py::class_<rlf_camera>(m, "Camera", "A pinhole camera with lens distortion; lengths in pixels.")
@@ -92,6 +110,8 @@ void bind_camera(py::module_ &m)
         .def_readonly("cx", &rlf_camera::cx,
                       "Principal point, pixels; (0, 0) = centre of the first one.")
         .def_readonly("cy", &rlf_camera::cy, "The same along y.")
+        .def("project", &project, py::arg("points"),
+             "(N, 2) pixels of points (N, 3), camera frame; NaN behind it.")
         .def_property_readonly(
             "distortion_model", [](const rlf_camera &c) { return models[c.distortion_model]; },
             "\"none\", \"plumb_bob\" or \"rational_polynomial\", as OpenCV and ROS have them.")

@@ -208,6 +208,8 @@ template <typename Class, typename Of> void bind_readings(Class &c, Of of)
         .def_property_readonly("mass", of([](S s) { return s.mass; }), "kg.")
         .def_property_readonly("is_asleep", of([](S s) { return s.is_asleep; }),
                                "At rest until something touches it.")
+        .def_property_readonly("is_held", of([](S s) { return s.is_held; }),
+                               "Waits for the release time that its scene gives it.")
         .def_property_readonly("is_grabbed", of([](S s) { return s.is_grabbed; }),
                                "Real fingers or hands hold it.");
 }
@@ -275,6 +277,9 @@ void bind_contacts(py::module_ &m)
             "impulse", [](C c) { return c.c.impulse; }, "N s.")
         .def_property_readonly(
             "separation", [](C c) { return c.c.separation; }, "Metres.")
+        .def_property_readonly(
+            "approach_speed", [](C c) { return c.c.approach_speed; },
+            "m/s at which they met; 0 of what rests.")
         .def_property_readonly(
             "label", [](C c) { return c.c.region_label; },
             "Region.label of the surface; 0 = none.");

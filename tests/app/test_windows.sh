@@ -70,7 +70,7 @@ for i in 1 2; do
     expect 0 '' relief export synthetic:room --out 'arrays\日本' --what depth,normals --frames 0:2
     [ -f 'arrays/日本/depth/000001.npy' ] || fail "round $i: no arrays"
 done
-expect 0 '' relief-lab eval --scene physics --seeds 1 --profile live --threads 2
+expect 0 '' relief-lab-sections eval physics --profile live
 
 # The same numbers as here: of 100 frames of physics, and of the planes.
 if [ -n "$native" ]; then

@@ -110,10 +110,16 @@ for command in "eval --scene room" "bench --frames 100000" "measure synthetic:ro
     # shellcheck disable=SC2086 # words
     "$lab" $command --json kept.json >stdout.txt 2>stderr.txt &
     pid=$!
+    # A signal that comes before the program listens is lost; two end it without a word.
+    for _ in $(seq 600); do
+        grep -Eqs '^SigCgt:.*[2367abef]$' /proc/$pid/status && break # 2 is SIGINT's bit
+        sleep 0.1
+    done
     sleep 1
     kill -INT $pid
     wait $pid
-    [ $? -eq 130 ] || fail "interrupted $command: status is not 130"
+    status=$?
+    [ $status -eq 130 ] || fail "interrupted $command: status is not 130"
     tail -n 1 stderr.txt | grep -q "nothing was written" || fail "interrupted $command: $(cat stderr.txt)"
     [ "$(cat kept.json)" = "{}" ] && ! ls ./*.part >/dev/null 2>&1 || fail "interrupted $command: kept.json"
 done

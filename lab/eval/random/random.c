@@ -1,8 +1,7 @@
-/* One room drawn at random: surface, throws, pushes. */
+/* One room drawn at random: throws and pushes. */
 #include "eval/random/random.h"
 
 #include "eval/measures/percent.h"
-#include "eval/run.h"
 #include "eval/sensed/throw.h"
 #include "eval/table.h"
 
@@ -54,14 +53,9 @@ static rlf_result add_throws(eval_table *table, int64_t seed)
     return result;
 }
 
-rlf_result eval_random_run(eval_table *table, int64_t seed, int64_t frames,
-                           const setting_list *settings)
+rlf_result eval_random_run(eval_table *table, int64_t seed)
 {
-    const eval_scene room = {EVAL_RANDOM,      "",   EVAL_RANDOM_FRAMES, "random",
-                             "&color=640x360", false};
-    rlf_result result = eval_scene_run(table, &room, seed, frames > 0 ? frames : room.frames,
-                                       1 << RLF_PROFILE_LIVE, settings);
-    result = result == RLF_OK ? add_throws(table, seed) : result;
+    rlf_result result = add_throws(table, seed);
     return result == RLF_OK ? eval_random_add_pushes(table, seed, false) : result;
 }
 

@@ -1,8 +1,6 @@
 /* The baselines' tools. */
 #include "eval/real/fit.h"
 
-#include <string.h>
-
 #define DRAWS 200
 #define SIGMAS 3.0
 #define SAMPLES 4000 /* points that each draw is judged by */
@@ -152,32 +150,4 @@ rlf_vec3 real_window_normal(const real_points *p, int32_t i)
     rlf_vec3 n = plane.n;
     n.z -= n.x * p->ray_x[i] + n.y * p->ray_y[i];
     return rlf_normalize(n);
-}
-
-int32_t real_components(const real_points *p, const uint8_t *is_marked, double step,
-                        int32_t *out_label, int32_t *stack)
-{
-    int32_t count = 0, width = p->width, height = p->height;
-    memset(out_label, 0, (size_t)width * (size_t)height * sizeof(*out_label));
-    for (int32_t start = 0; start < width * height; start++) {
-        int32_t top = 0;
-        if (is_marked[start] && out_label[start] == 0) {
-            out_label[start] = ++count;
-            stack[top++] = start;
-        }
-        while (top > 0) {
-            int32_t i = stack[--top], x = i % width, y = i / width;
-            const int32_t near[4] = {x > 0 ? i - 1 : i, x + 1 < width ? i + 1 : i,
-                                     y > 0 ? i - width : i, y + 1 < height ? i + width : i};
-            for (int k = 0; k < 4; k++) {
-                int32_t j = near[k];
-                double off = p->depth[j] - p->depth[i], most = step * p->depth[i];
-                if (is_marked[j] && out_label[j] == 0 && off < most && off > -most) {
-                    out_label[j] = count;
-                    stack[top++] = j;
-                }
-            }
-        }
-    }
-    return count;
 }

@@ -1,4 +1,4 @@
-/* The baselines' tools: planes by least squares and RANSAC, connected components. */
+/* The baselines' tools: planes by least squares and RANSAC. */
 #ifndef RELIEF_APP_EVAL_REAL_FIT_H
 #define RELIEF_APP_EVAL_REAL_FIT_H
 
@@ -33,9 +33,5 @@ bool real_plane_find(const real_points *p, const uint8_t *is_free, const rlf_dep
 /* Unit normal of the 5x5 window around a pixel by least squares of inverse depth; (0,0,0) without
  * 6 points, or at the border. */
 rlf_vec3 real_window_normal(const real_points *p, int32_t i);
-/* Labels 1, 2, ... of 4-connected marked pixels whose depths differ by less than `step` (share of
- * the depth); others 0. `stack` has an entry per pixel. Returns the count. */
-int32_t real_components(const real_points *p, const uint8_t *is_marked, double step,
-                        int32_t *out_label, int32_t *stack);
 
 #endif

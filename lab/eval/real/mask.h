@@ -47,13 +47,4 @@ void real_mask_close(uint8_t *mask, int32_t width, int32_t height, uint8_t *scra
  * per pixel. */
 int64_t real_mask_largest(uint8_t *mask, int32_t width, int32_t height, int32_t *stack);
 
-/* Best intersection over union of one true object with any region. Labels: 0 = none. Both planes
- * are dense: 0 .. count - 1 (real_dense_labels). `counts` has an entry per region. */
-double real_best_iou(const int32_t *truth, int32_t object, const int32_t *found, int32_t pixels,
-                     const int32_t *areas, int32_t region_count, int32_t *counts);
-/* Renumbers labels to 1, 2, ... in the order of their pixels; 0 stays. Areas go to `areas` (of
- * `capacity`; labels beyond become 0). Returns the count with the 0. */
-int32_t real_dense_labels(int32_t *labels, int32_t pixels, int32_t *areas, int32_t *names,
-                          int32_t capacity);
-
 #endif

@@ -5,11 +5,8 @@
 #include "eval/real/real.h"
 
 /* Each says on stderr what it is at. */
-rlf_result real_objects_run(real_table *table, const real_options *options);
 rlf_result real_still_run(real_table *table, const real_options *options);
-rlf_result real_fill_run(real_table *table, const real_options *options);
 rlf_result real_silhouettes_run(real_table *table, const real_options *options);
-rlf_result real_gravity_run(real_table *table, const real_options *options);
 rlf_result real_moving_run(real_table *table, const real_options *options);
 rlf_result real_standing_run(real_table *table, const real_options *options);
 

@@ -2,9 +2,7 @@
 #ifndef RELIEF_APP_EVAL_REAL_REAL_H
 #define RELIEF_APP_EVAL_REAL_REAL_H
 
-#include "eval/table.h"
-
-#include <jansson.h>
+#include "relief/base.h"
 
 #define REAL_ROWS_MAX 256
 
@@ -37,12 +35,5 @@ bool real_is_there(const char *path);
 /* Joins two names; false when the path is too long. */
 #define REAL_PATH_SIZE 1024
 bool real_join(char path[REAL_PATH_SIZE], const char *folder, const char *name);
-
-/* Scene "real" of the other table: the figures that are measured elsewhere, too, under the keys
- * that they have there, a value per clip. */
-void real_add_headlines(const real_table *table, eval_table *out);
-void real_print(const real_table *table);
-/* An array of objects: part, key, title, relation, goal, relief, baseline, baseline_name. */
-json_t *real_json(const real_table *table);
 
 #endif

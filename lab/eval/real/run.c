@@ -13,9 +13,9 @@ rlf_result real_run(real_table *table, const real_options *options)
         const char *name;
         part_fn run;
     } parts[] = {
-        {"objects on tables", real_objects_run}, {"still clips", real_still_run},
-        {"filled pixels", real_fill_run},        {"silhouettes", real_silhouettes_run},
-        {"gravity", real_gravity_run},           {"moving cameras", real_moving_run},
+        {"still clips", real_still_run},
+        {"silhouettes", real_silhouettes_run},
+        {"moving cameras", real_moving_run},
         {"standing cameras", real_standing_run},
     };
     if (!real_is_there(options->folder)) {

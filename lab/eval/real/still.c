@@ -1,7 +1,7 @@
 /* Still clips: how steady normals and matte are, and how true normals are to large planes. */
 #include "command.h"
 #include "eval/measures/depth.h"
-#include "eval/measures/normals.h"
+#include "eval/measures/band.h"
 #include "eval/measures/percent.h"
 #include "eval/real/clip.h"
 #include "eval/real/fit.h"

@@ -1,0 +1,1 @@
+"""What Relief is worth, measured: sections in Python over `import relief`, the others in C."""
