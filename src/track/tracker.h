@@ -82,9 +82,9 @@ typedef struct track_gate {
 } track_gate;
 
 /* How far a prediction may be off its plane where a point is compared with it, metres: half of what
- * its neighbours in a row and in a column are off, the nearer ones, since the point is at most half a
- * pixel away; at most half a pixel's width. An outline has the normal of a rim that is not there, and
- * would tell the camera's way along a wall from that. */
+ * its neighbours in a row and in a column are off, the nearer ones, since the point is at most half
+ * a pixel away; at most half a pixel's width. An outline has the normal of a rim that is not there,
+ * and would tell the camera's way along a wall from that. */
 void track_find_plane_error(const rlf_prediction *prediction, float *error);
 
 /* Of every `stride`-th point of every `stride`-th row. T: the frame's camera to the prediction's.

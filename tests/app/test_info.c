@@ -1,13 +1,8 @@
 /* What `relief info` measures: colour's offset from depth, noise over time, where pixels are
  * missing, and a whole survey. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "info/info.h"
 #include "relief/io.h"
+#include "test.h"
 
 #include <math.h>
 #include <string.h>

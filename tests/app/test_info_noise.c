@@ -1,13 +1,8 @@
 /* `relief info --noise` finds the noise that was put in. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "analytic.h"
 #include "info/info.h"
+#include "test.h"
 
 #define W 160
 #define H 120

@@ -1,13 +1,8 @@
 /* The list of recordings shown lately. */
 #define _XOPEN_SOURCE 700
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "io_support.h"
 #include "recent.h"
+#include "test.h"
 
 static void the_newest_recordings_come_first(void **state)
 {

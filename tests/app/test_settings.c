@@ -1,11 +1,6 @@
 /* `--set`: names and words reach the field that they name, and nothing else. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "settings.h"
+#include "test.h"
 
 #include <stdio.h>
 #include <string.h>

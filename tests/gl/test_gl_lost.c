@@ -1,15 +1,10 @@
 /* A context that is lost in the middle of a run, and a machine without OpenGL: the soft renderer
  * goes on, one line says so, and its pictures are those of a run that was soft from the start. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "gl_scene.h"
 #include "relief/gl.h"
 #include "relief/pipeline.h"
 #include "relief/synthetic.h"
+#include "test.h"
 
 #include <stdlib.h>
 

@@ -1,12 +1,7 @@
 /* Bodies in front of, behind and half through real surfaces, against masks from ray casting, for
  * OpenGL and ES, with both ways of occlusion. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "gl_scene.h"
+#include "test.h"
 
 static gl_scene scene;
 

@@ -1,12 +1,7 @@
 /* The OpenGL and the soft renderer draw the same picture, within a small tolerance. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "gl_scene.h"
 #include "model_sample.h"
+#include "test.h"
 
 static gl_scene scene;
 

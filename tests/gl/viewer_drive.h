@@ -2,6 +2,7 @@
 #ifndef RLF_TEST_VIEWER_DRIVE_H
 #define RLF_TEST_VIEWER_DRIVE_H
 
+#include "test.h"
 #include "relief/image.h"
 #include "relief/math.h"
 

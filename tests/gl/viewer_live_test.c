@@ -1,13 +1,8 @@
 /* The window with a camera that stops, and its start page. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/synthetic.h"
 #include "relief/window.h"
 #include "relief/window.h"
+#include "test.h"
 #include "viewer_drive.h"
 
 /* ---- a camera that stops -------------------------------------------------------------------- */

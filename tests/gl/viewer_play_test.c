@@ -1,15 +1,10 @@
 /* The window with recordings and bodies: what comes after the end, other places, what is held by
  * the mouse, what is dropped, monitors that go. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/playback.h"
 #include "relief/synthetic.h"
-#include "viewer/mouse.h"
 #include "relief/window.h"
+#include "test.h"
+#include "viewer/mouse.h"
 
 #include "viewer_drive.h"
 

@@ -1,14 +1,9 @@
 /* The viewer: mouse positions and rays anywhere; the window, its keys and the presenter where there
  * is a display (the build runs this under xvfb-run when it finds it). */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/gl.h"
 #include "relief/synthetic.h"
 #include "relief/window.h"
+#include "test.h"
 #include "viewer/mouse.h"
 
 #include "count_assert.h"

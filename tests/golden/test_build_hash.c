@@ -1,12 +1,7 @@
 /* Short replays whose bits the sanitizer build has to have, too: its kernels are the portable ones,
  * and little of it is optimised. A change of method changes them, as in test_replay_hash. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "golden_hash.h"
+#include "test.h"
 
 #define FRAMES 8
 #define STEPS 90

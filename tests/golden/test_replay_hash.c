@@ -2,13 +2,8 @@
  * come out of every compiler, optimisation level, instruction set and worker count; a change of
  * method changes them, and then the new ones are written down in the same commit. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "golden_hash.h"
+#include "test.h"
 
 #define FRAMES 90
 #define EVERY 15

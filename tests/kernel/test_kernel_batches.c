@@ -1,13 +1,8 @@
 /* Batch kernels against their definition written out pixel by pixel. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "analytic.h"
 #include "kernel/batch.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdlib.h>

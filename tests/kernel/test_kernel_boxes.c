@@ -1,13 +1,8 @@
 /* Boxes in lanes against boxes one by one. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "analytic.h"
 #include "kernel/lanes.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,13 +1,8 @@
 /* Kernels of what moves and how thick it is against their definition. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "analytic.h"
 #include "kernel/flow.h"
+#include "test.h"
 
 #include <math.h>
 

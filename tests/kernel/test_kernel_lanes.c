@@ -1,14 +1,9 @@
 /* The solver's lanes against sequential impulses written out for one group. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "analytic.h"
 #include "kernel/lanes.h"
 #include "relief/math.h"
+#include "test.h"
 
 #include <math.h>
 #include <string.h>

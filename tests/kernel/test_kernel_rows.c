@@ -1,13 +1,8 @@
 /* Row kernels against their definition written out pixel by pixel, at odd sizes. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "analytic.h"
 #include "kernel/kernel.h"
+#include "test.h"
 
 #include <math.h>
 

@@ -1,14 +1,9 @@
 /* Separating axes in lanes against the corners of the boxes. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "analytic.h"
 #include "kernel/lanes.h"
 #include "relief/math.h"
+#include "test.h"
 
 #include <math.h>
 

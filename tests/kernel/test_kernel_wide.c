@@ -1,13 +1,8 @@
 /* Rows of half the resolution, and what planes found there say to the whole one. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "analytic.h"
 #include "kernel/plane_window.h"
+#include "test.h"
 
 #include <math.h>
 

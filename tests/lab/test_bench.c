@@ -1,12 +1,7 @@
 /* What `relief-lab bench` stands on: its rooms, its floor, its counting of memory, its files. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "bench/bench.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdio.h>

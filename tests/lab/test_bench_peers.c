@@ -2,14 +2,9 @@
  * of their results. */
 #define _POSIX_C_SOURCE 200809L
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "bench/peers.h"
 #include "io_support.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,16 +1,11 @@
 /* Figures on real recordings: masks and planes, on input made here. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "eval/real/clip.h"
 #include "eval/real/fit.h"
 #include "eval/real/mask.h"
 #include "eval/real/real.h"
 #include "eval/real/run.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,12 +1,7 @@
 /* The sheets that bodies meet in section physics of `relief-lab eval`. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "eval/physics/sheet.h"
+#include "test.h"
 
 static void sheet_shows_walls_and_slab(void **state)
 {

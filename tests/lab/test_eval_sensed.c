@@ -1,13 +1,8 @@
 /* Physics on what the synthetic sensor shows: short versions of section "sensed". */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "eval/ball.h"
 #include "eval/sensed/throw.h"
 #include "relief/io.h"
+#include "test.h"
 
 #include <math.h>
 

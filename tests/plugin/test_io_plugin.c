@@ -1,14 +1,9 @@
 /* Plug-ins: what loads, what does not and why, what the program then knows. */
 #define _POSIX_C_SOURCE 200809L
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "relief/io.h"
 #include "io_support.h"
+#include "relief/io.h"
+#include "test.h"
 
 static void bad_ones_are_refused_with_the_cure(void **state)
 {

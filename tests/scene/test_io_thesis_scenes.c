@@ -1,14 +1,9 @@
 /* The scenes of the thesis's chapter 5 on the synthetic room: where profile `thesis` fails as the
  * thesis reports, profile `live` must not. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "heavy.h"
 #include "relief/io.h"
+#include "test.h"
 
 #include <stdio.h>
 

@@ -2,6 +2,7 @@
 #ifndef RELIEF_TESTS_GOLDEN_HASH_H
 #define RELIEF_TESTS_GOLDEN_HASH_H
 
+#include "test.h"
 #include "relief/pipeline.h"
 #include "relief/synthetic.h"
 

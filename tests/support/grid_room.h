@@ -3,6 +3,7 @@
 #ifndef RLF_TEST_GRID_ROOM_H
 #define RLF_TEST_GRID_ROOM_H
 
+#include "test.h"
 #include "relief/world.h"
 
 #include "grid_fixture.h"

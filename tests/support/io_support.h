@@ -2,6 +2,7 @@
 #ifndef RLF_TEST_IO_SUPPORT_H
 #define RLF_TEST_IO_SUPPORT_H
 
+#include "test.h"
 #include "relief/base.h"
 
 #include <dirent.h>

@@ -2,6 +2,7 @@
 #ifndef RLF_TEST_KNOWN_BOXES_H
 #define RLF_TEST_KNOWN_BOXES_H
 
+#include "test.h"
 #include "relief/model.h"
 
 #include <string.h>

@@ -3,6 +3,7 @@
 #ifndef RLF_TEST_LIVE_WATCH_H
 #define RLF_TEST_LIVE_WATCH_H
 
+#include "test.h"
 #include "relief/source.h"
 
 #include <pthread.h>

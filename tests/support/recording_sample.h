@@ -2,6 +2,7 @@
 #ifndef RLF_TEST_RECORDING_SAMPLE_H
 #define RLF_TEST_RECORDING_SAMPLE_H
 
+#include "test.h"
 #include "relief/io.h"
 #include "io_support.h"
 

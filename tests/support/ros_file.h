@@ -3,6 +3,7 @@
 #ifndef RLF_TEST_ROS_FILE_H
 #define RLF_TEST_ROS_FILE_H
 
+#include "test.h"
 #include "bag_file.h"
 #include "io/ros/messages.h"
 #include "io/mcap/write.h"

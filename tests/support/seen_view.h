@@ -3,6 +3,7 @@
 #ifndef RLF_TEST_SEEN_VIEW_H
 #define RLF_TEST_SEEN_VIEW_H
 
+#include "test.h"
 #include "analytic.h"
 
 typedef struct seen_view {

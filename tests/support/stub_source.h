@@ -2,6 +2,7 @@
 #ifndef RLF_TEST_STUB_SOURCE_H
 #define RLF_TEST_STUB_SOURCE_H
 
+#include "test.h"
 #include "direct_source.h"
 #include "stub_camera.h"
 

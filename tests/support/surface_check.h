@@ -3,6 +3,7 @@
 #ifndef RLF_TEST_SURFACE_CHECK_H
 #define RLF_TEST_SURFACE_CHECK_H
 
+#include "test.h"
 #include "relief/surface.h"
 
 /* Finite values; depth exactly where the reason says so; unit normals or none; nothing in front,

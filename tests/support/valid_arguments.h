@@ -7,6 +7,7 @@
 #ifndef RLF_TEST_VALID_ARGUMENTS_H
 #define RLF_TEST_VALID_ARGUMENTS_H
 
+#include "test.h"
 #include "relief/relief.h"
 #include "relief/synthetic.h"
 #ifdef RLF_TEST_WITH_IO

@@ -1,11 +1,6 @@
 /* What stands still becomes room, and nothing else does. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "pipeline/moving/moving.h"
+#include "test.h"
 
 #define LABEL 7
 #define AFTER_S 2.0

@@ -1,12 +1,7 @@
 /* Background and foreground: the thesis's average, and the model by observation. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "seen_view.h"
+#include "test.h"
 
 enum { WIDTH = 96, HEIGHT = 72, COUNT = WIDTH * HEIGHT };
 

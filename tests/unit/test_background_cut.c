@@ -1,12 +1,7 @@
 /* Another room than the one that was learnt, and things that only look like one. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "seen_view.h"
+#include "test.h"
 
 enum { WIDTH = 96, HEIGHT = 72, COUNT = WIDTH * HEIGHT, LEARNT = 20, LEARNING = 5, NOTICED = 3 };
 

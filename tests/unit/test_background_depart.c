@@ -1,12 +1,7 @@
 /* A box that stands before a wall from the first frame on, and then goes: it is foreground whole,
  * though most of it shows the depth that it had. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "seen_view.h"
+#include "test.h"
 
 enum { WIDTH = 160, HEIGHT = 120, COUNT = WIDTH * HEIGHT, X0 = 50, X1 = 90, Y0 = 40, Y1 = 80 };
 enum { STILL = 60 };

@@ -1,13 +1,8 @@
 /* Pixels that return nothing: what a thing hides, what is in the sensor's shadow, the rim; and what
  * the shadow hid when the background was learnt. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "seen_view.h"
+#include "test.h"
 
 enum { WIDTH = 160, HEIGHT = 120, COUNT = WIDTH * HEIGHT, LEARNT = 8, RIM = 10 };
 

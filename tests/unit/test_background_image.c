@@ -1,15 +1,10 @@
 /* The published background: made a few tiles a frame, it is what one made at once would be. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "analytic.h"
 #include "heavy.h"
 #include "surface/objects/objects.h"
 #include "surface/steps.h"
+#include "test.h"
 
 enum { WIDTH = 330, HEIGHT = 230, COUNT = WIDTH * HEIGHT, TILES = 4 * 3 };
 

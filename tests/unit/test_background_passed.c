@@ -1,12 +1,7 @@
 /* People who were in view when the background was learnt and go; what they hid is room at once. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "seen_view.h"
+#include "test.h"
 
 enum { WIDTH = 160, HEIGHT = 120, COUNT = WIDTH * HEIGHT, LEARNT = 8 };
 

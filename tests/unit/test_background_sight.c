@@ -1,12 +1,7 @@
 /* Frames without depth, or with hardly any: nothing is learnt of them, and nothing is forgotten. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "seen_view.h"
+#include "test.h"
 
 #include <string.h>
 

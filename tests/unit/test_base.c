@@ -1,13 +1,8 @@
 /* Error line, allocator hooks and the worker pool. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "count_assert.h"
 #include "relief/base.h"
+#include "test.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,12 +1,7 @@
 /* Lens model: projection and unprojection are inverses; derived cameras see the same rays. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/camera.h"
+#include "test.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,13 +4,8 @@
  * headers, by tests/headers/def_fields.awk. Each struct has a process of its own. */
 
 #define _DEFAULT_SOURCE 1 /* MAP_ANONYMOUS */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "count_assert.h"
+#include "test.h"
 #include "valid_arguments.h"
 
 #include <limits.h>

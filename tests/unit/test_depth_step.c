@@ -1,14 +1,9 @@
 /* One surface or a depth step: planes at many slants and distances are one surface, noise and all;
  * real steps are found as far as a pixel's footprint lets anyone tell them from a slant. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/math.h"
 #include "surface/depth_step.h"
+#include "test.h"
 
 static const rlf_depth_noise time_of_flight = {0.0015, -0.0005, 0.0003};
 static const rlf_depth_noise structured_light = {0.0008, 0.0, 0.0012};

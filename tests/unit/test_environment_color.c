@@ -1,12 +1,7 @@
 /* Pixels whose depth was lost beside foreground, settled by the remembered colour of the room. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "environment/real_depth.h"
+#include "test.h"
 
 #include <string.h>
 

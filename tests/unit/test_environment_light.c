@@ -1,12 +1,7 @@
 /* Light on bodies that follows the camera's picture. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "environment/light.h"
+#include "test.h"
 
 #include <math.h>
 

@@ -1,12 +1,7 @@
 /* Depth of pixels that return no light, and what is seen of virtual things there. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "environment/real_depth.h"
+#include "test.h"
 
 #include <string.h>
 

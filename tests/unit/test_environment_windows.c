@@ -1,13 +1,8 @@
 /* Parts of the registered depth: what is far apart stays apart, and holds what the whole would. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "environment/real_depth.h"
 #include "render_scene.h"
+#include "test.h"
 
 #define NEAREST_M 2.0
 

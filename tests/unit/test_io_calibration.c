@@ -1,15 +1,10 @@
 /* Calibration files of other programs: round trips, their own texts, and what is refused. */
 #define _POSIX_C_SOURCE 200809L
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "io/calibration/calibration.h"
 #include "io_support.h"
 #include "relief/io.h"
+#include "test.h"
 
 #include <math.h>
 

@@ -1,15 +1,10 @@
 /* camera.json: what is read, what is assumed, and what is refused. */
 #define _POSIX_C_SOURCE 200809L
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "relief/io.h"
 #include "io/camera_json.h"
 #include "io_support.h"
+#include "relief/io.h"
+#include "test.h"
 
 #define SIZE "\"width\":64,\"height\":48,"
 #define LENS "\"fx\":60,\"fy\":61,\"cx\":31.5,\"cy\":23.5"

@@ -1,13 +1,8 @@
 /* A recorded clip as a source: pairs, counts, seeking, damaged frames. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "io/source/backends.h"
-#include "io/source/address.h"
 #include "io/clip/clip.h"
+#include "io/source/address.h"
+#include "io/source/backends.h"
+#include "test.h"
 
 #include <stdio.h>
 #include <string.h>

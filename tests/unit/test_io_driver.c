@@ -1,12 +1,7 @@
 /* What the live back ends share. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "io/live/least_squares.h"
 #include "io/live/driver.h"
+#include "io/live/least_squares.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdio.h>

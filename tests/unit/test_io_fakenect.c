@@ -1,15 +1,10 @@
 /* A dump written here, played by Debian's fakenect in place of libfreenect. */
 #define _POSIX_C_SOURCE 200809L
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "freenect_test.h"
 #include "direct_source.h"
+#include "freenect_test.h"
 #include "io_support.h"
 #include "relief/io.h"
+#include "test.h"
 
 #ifndef RLF_TEST_FAKENECT
 #define RLF_TEST_FAKENECT NULL

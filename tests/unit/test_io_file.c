@@ -1,11 +1,7 @@
 /* Files in and out: pipes in place of files, names of files that are being written, and what error
  * lines say. */
 #define _POSIX_C_SOURCE 200809L
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "test.h"
 
 #include <signal.h>
 #include <sys/stat.h>

@@ -1,17 +1,12 @@
 /* The folder source: order, pairing, errors in the middle of a clip, and real clips. */
 #define _POSIX_C_SOURCE 200809L
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "relief/io.h"
-#include "io/folder/lists.h"
 #include "io/clip/clip.h"
+#include "io/folder/lists.h"
 #include "io_support.h"
 #include "jpeg_sample.h"
+#include "relief/io.h"
+#include "test.h"
 
 #define W 16
 #define H 8

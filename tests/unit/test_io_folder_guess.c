@@ -2,15 +2,10 @@
  * the order of their names. */
 #define _POSIX_C_SOURCE 200809L
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "relief/io.h"
 #include "io/folder/layout.h"
 #include "io_support.h"
+#include "relief/io.h"
+#include "test.h"
 
 #define MOST (512 * 424)
 

@@ -1,16 +1,11 @@
 /* Kinect v1 with its factory calibration, through a stand-in for libfreenect. */
 #define _POSIX_C_SOURCE 200809L
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
+#include "direct_source.h"
 #include "freenect_stub.h"
 #include "freenect_test.h"
-#include "direct_source.h"
 #include "io_support.h"
 #include "relief/io.h"
+#include "test.h"
 
 #include <dlfcn.h>
 

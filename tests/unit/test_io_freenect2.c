@@ -1,15 +1,10 @@
 /* The Kinect v2 as a source, against a stub of the shim of libfreenect2. */
 #define _POSIX_C_SOURCE 200809L
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "io/source/backends.h"
 #include "kinect2_sample.h"
 #include "stub_freenect2.h"
 #include "stub_source.h"
+#include "test.h"
 
 #include <math.h>
 

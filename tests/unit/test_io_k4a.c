@@ -1,16 +1,11 @@
 /* Azure Kinect and Femto cameras, against a stub libk4a. */
 #define _POSIX_C_SOURCE 200809L
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "io/k4a/k4a.h"
 #include "io/source/backends.h"
 #include "io_support.h"
 #include "stub_k4a.h"
 #include "stub_source.h"
+#include "test.h"
 
 #include <math.h>
 

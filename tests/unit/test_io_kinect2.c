@@ -1,12 +1,7 @@
 /* The Kinect v2's registration, and its factory calibration as Relief's cameras. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "io/freenect2/freenect2.h"
 #include "kinect2_sample.h"
+#include "test.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,16 +1,11 @@
 /* scene.json's known objects: read, refused, and written back with poses. */
 #define _POSIX_C_SOURCE 200809L
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "relief/io.h"
-#include "io/scene/reader.h"
 #include "io/scene/pattern.h"
+#include "io/scene/reader.h"
 #include "io_support.h"
+#include "relief/io.h"
+#include "test.h"
 
 static rlf_result parse(const char *text, rlf_scene *scene)
 {

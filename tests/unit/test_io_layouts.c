@@ -1,15 +1,10 @@
 /* Folders as data sets arrange them: what is recognised, cameras, times, poses, missing depth. */
 #define _POSIX_C_SOURCE 200809L
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "relief/io.h"
 #include "io/folder/lists.h"
 #include "io_support.h"
+#include "relief/io.h"
+#include "test.h"
 
 #include <math.h>
 

@@ -1,14 +1,9 @@
 /* A live source: newest frame first, counts, unplugging, stalls, drivers that do not return. */
 #define _POSIX_C_SOURCE 200809L
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "io/live/live.h"
 #include "io/source/backends.h"
 #include "live_watch.h"
+#include "test.h"
 
 #include <stdatomic.h>
 #include <stdio.h>

@@ -1,14 +1,9 @@
 /* .klg and .sens: values, poses, times, damage. */
 #define _POSIX_C_SOURCE 200809L
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "relief/io.h"
 #include "io_support.h"
 #include "log_sample.h"
+#include "relief/io.h"
+#include "test.h"
 
 static const char klg_rig[] =
     "{\"depth\": {\"width\": 16, \"height\": 8, \"fx\": 10, \"fy\": 10, \"cx\": 8, \"cy\": 4, "

@@ -1,13 +1,8 @@
 /* Files of `relief run`: the map itself, and its mesh as .ply, .obj and .glb. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "map_room.h"
 #include "relief/io.h"
+#include "test.h"
 
 #include <stdio.h>
 

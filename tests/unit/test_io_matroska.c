@@ -1,14 +1,9 @@
 /* Recordings of Azure Kinect and Femto cameras: tracks, calibration, times, damage. */
 #define _POSIX_C_SOURCE 200809L
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "relief/io.h"
 #include "io_support.h"
 #include "mkv_sample.h"
+#include "relief/io.h"
+#include "test.h"
 
 #include <math.h>
 #ifdef RLF_HAVE_LIBAV

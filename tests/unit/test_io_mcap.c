@@ -1,14 +1,9 @@
 /* Recordings: what goes in comes out, whatever becomes of the file. */
 #define _POSIX_C_SOURCE 200809L
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "io/mcap/format.h"
 #include "recording_sample.h"
+#include "test.h"
 
 #include <signal.h>
 #include <sys/resource.h>

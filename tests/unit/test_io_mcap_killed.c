@@ -2,14 +2,9 @@
  * test_io_mcap_killed [TIMES]: 10 by default. */
 #define _POSIX_C_SOURCE 200809L
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "io/mcap/format.h"
 #include "recording_sample.h"
+#include "test.h"
 
 #include <signal.h>
 #include <sys/wait.h>

@@ -1,13 +1,8 @@
 /* What a source says of itself and of its frames comes back from a recording. */
 #define _POSIX_C_SOURCE 200809L
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "recording_sample.h"
+#include "test.h"
 
 #include "io/clip/clip.h"
 

@@ -1,13 +1,8 @@
 /* Recordings: what is refused, what a full disk keeps, and that what is read is not written. */
 #define _POSIX_C_SOURCE 200809L
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "recording_sample.h"
+#include "test.h"
 
 #include <math.h>
 #include <signal.h>

@@ -1,15 +1,10 @@
 /* Recordings of other ROS 2 recorders: which topics are taken, and every kind of picture. */
 #define _POSIX_C_SOURCE 200809L
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "io/ros/messages.h"
 #include "io/mcap/write.h"
+#include "io/ros/messages.h"
 #include "recording_sample.h"
+#include "test.h"
 
 #define W 6
 #define H 4

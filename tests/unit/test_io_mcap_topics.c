@@ -1,17 +1,12 @@
 /* Recordings of ROS 1 and 2 alike: which topics are taken, and which lens is theirs. */
 #define _POSIX_C_SOURCE 200809L
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "relief/io.h"
-#include "io/picture/picture.h"
 #include "io/mcap/format.h"
 #include "io/mcap/read.h"
+#include "io/picture/picture.h"
+#include "relief/io.h"
 #include "ros_file.h"
+#include "test.h"
 
 #include <math.h>
 

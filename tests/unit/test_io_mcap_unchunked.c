@@ -1,15 +1,10 @@
 /* MCAP files without chunks, or without an index of them: the format allows both. */
 #define _POSIX_C_SOURCE 200809L
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "relief/io.h"
 #include "io/mcap/format.h"
+#include "relief/io.h"
 #include "ros_file.h"
+#include "test.h"
 
 #define FRAMES 4
 #define DATA_LONGEST 40 /* head of a chunk: 8 + 8 + 8 + 4 + 4 + 8, its compression "" */

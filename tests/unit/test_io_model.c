@@ -1,11 +1,7 @@
 /* Models from files: what is read, and what is wrong with a file in one line. */
 #define _POSIX_C_SOURCE 200809L
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "test.h"
 
 #include <math.h>
 #include <unistd.h>

@@ -1,11 +1,7 @@
 /* Which other files a model may name: those in its folder or below. */
 #define _XOPEN_SOURCE 700
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "test.h"
 
 #include <sys/stat.h>
 #include <unistd.h>

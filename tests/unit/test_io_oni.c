@@ -1,15 +1,10 @@
 /* .oni recordings: every value, the packing of depth, damage of all kinds. */
 #define _POSIX_C_SOURCE 200809L
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "io/formats/oni.h"
 #include "io_support.h"
 #include "oni_sample.h"
 #include "relief/io.h"
+#include "test.h"
 
 static rlf_source *open_bytes(const oni_bytes *b, const char *keys)
 {

@@ -1,16 +1,11 @@
 /* Cameras through OpenNI2, served by a driver of our own, and .oni recordings made from it. */
 #define _POSIX_C_SOURCE 200809L
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "io/openni2/openni2.h"
 #include "direct_source.h"
+#include "io/openni2/openni2.h"
 #include "io_support.h"
 #include "openni2_driver/control.h"
 #include "relief/io.h"
+#include "test.h"
 
 #include <dlfcn.h>
 #include <math.h>

@@ -1,15 +1,10 @@
 /* Arrays, meshes, logs and folders that are written, and disks that are full. */
 #define _POSIX_C_SOURCE 200809L
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "relief/io.h"
 #include "io/file.h"
 #include "io_support.h"
+#include "relief/io.h"
+#include "test.h"
 
 #include <signal.h>
 #include <sys/resource.h>

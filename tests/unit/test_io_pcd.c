@@ -1,15 +1,10 @@
 /* Organised point clouds: three ways of writing them, the camera they tell, damaged files. */
 #define _POSIX_C_SOURCE 200809L
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "relief/io.h"
 #include "io/formats/pcd.h"
 #include "io_support.h"
+#include "relief/io.h"
+#include "test.h"
 
 #include <math.h>
 

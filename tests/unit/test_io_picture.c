@@ -1,16 +1,11 @@
 /* PNG and JPEG: round trips, kinds, and every way in which a file can be damaged. */
 #define _POSIX_C_SOURCE 200809L
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "relief/io.h"
 #include "io/picture/picture.h"
 #include "io_support.h"
 #include "jpeg_sample.h"
+#include "relief/io.h"
+#include "test.h"
 
 static void depth_png_round_trip(void **state)
 {

@@ -1,14 +1,9 @@
 /* Raw pictures of messages and recordings: every encoding, sizes that lie. */
 #define _POSIX_C_SOURCE 200809L
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "relief/io.h"
 #include "io/picture/pixels.h"
 #include "io_support.h"
+#include "relief/io.h"
+#include "test.h"
 
 #include <math.h>
 

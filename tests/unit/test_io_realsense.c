@@ -1,15 +1,10 @@
 /* RealSense cameras, against a stub librealsense2. */
 #define _POSIX_C_SOURCE 200809L
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "io/realsense/realsense.h"
 #include "io/source/backends.h"
 #include "stub_realsense2.h"
 #include "stub_source.h"
+#include "test.h"
 
 #include <math.h>
 

@@ -2,16 +2,11 @@
  */
 #define _POSIX_C_SOURCE 200809L
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "relief/io.h"
 #include "io/source/address.h"
 #include "io/source/backends.h"
 #include "io_support.h"
+#include "relief/io.h"
+#include "test.h"
 
 #define W 16
 #define H 8

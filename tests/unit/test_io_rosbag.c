@@ -1,15 +1,10 @@
 /* ROS 1 bags: topics, calibration, transforms, every kind of chunk, damage of every kind. */
 #define _POSIX_C_SOURCE 200809L
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "relief/io.h"
-#include "io/ros/bag.h"
 #include "bag_sample.h"
+#include "io/ros/bag.h"
 #include "io_support.h"
+#include "relief/io.h"
+#include "test.h"
 
 #include <math.h>
 #ifdef RLF_HAVE_BZ2

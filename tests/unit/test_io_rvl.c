@@ -1,11 +1,6 @@
 /* RVL: what goes in comes out, the bytes are those of the paper, and damaged ones harm nothing. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "io/picture/pixels.h"
+#include "test.h"
 
 #include <stdlib.h>
 #include <string.h>

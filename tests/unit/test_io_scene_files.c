@@ -1,12 +1,7 @@
 /* The scenes that ship: every one loads, its bodies can live in a world, and two_cubes.json is the
  * scene that the command throws by default. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/io.h"
+#include "test.h"
 
 #include <dirent.h>
 #include <stdio.h>

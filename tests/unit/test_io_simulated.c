@@ -1,15 +1,10 @@
 /* The simulated camera, and the times and counts of cameras. */
 #define _POSIX_C_SOURCE 200809L
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "io/live/live.h"
 #include "io_support.h"
 #include "live_watch.h"
 #include "relief/io.h"
+#include "test.h"
 
 #define W 16
 #define H 8

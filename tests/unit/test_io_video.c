@@ -1,15 +1,10 @@
 /* Y4M and MP4: headers, colours, odd sizes, and files that are whole after an early close. */
 #define _POSIX_C_SOURCE 200809L
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "relief/io.h"
 #include "io/video/video.h"
 #include "io_support.h"
+#include "relief/io.h"
+#include "test.h"
 
 static rlf_image_rgba8 flat(uint8_t *pixels, int32_t w, int32_t h, uint32_t rgb)
 {

@@ -1,17 +1,12 @@
 /* Models of real things: rays and distances of shapes, poses from points and on surfaces. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "known/mesh.h"
+#include "known_boxes.h"
 #include "relief/known.h"
 #include "relief/model.h"
 #include "relief/pipeline.h"
 #include "relief/synthetic.h"
-#include "known_boxes.h"
 #include "render_scene.h"
+#include "test.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,14 +1,9 @@
 /* Models of real things: depth in their place, and the bodies that they hide. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "known/layer.h"
 #include "known_boxes.h"
 #include "relief/known.h"
 #include "render_scene.h"
+#include "test.h"
 
 #include <math.h>
 

@@ -1,13 +1,8 @@
 /* The map: a wall and a ball seen from some places give true distances, predictions and triangles;
  * what leaves is carved; wrong poses are refused or taken back; memory is bounded. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "map_room.h"
+#include "test.h"
 
 static map_room room;
 

@@ -1,12 +1,7 @@
 /* Maps as bytes: what is saved comes back; what is cut short, changed or invented is refused. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "map_room.h"
+#include "test.h"
 
 static map_room room;
 

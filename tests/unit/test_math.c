@@ -1,12 +1,7 @@
 /* Elementary functions against libm, poses and matrices against their defining properties. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/math.h"
+#include "test.h"
 
 #include "math/eigen.h"
 #include "math/inverse.h"

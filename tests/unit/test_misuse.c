@@ -1,15 +1,10 @@
 /* A caller's mistake other than NULL (test_null_calls.c) is a safe no-op, too: sizes, factors and
  * views that are none. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "count_assert.h"
 #include "relief/relief.h"
 #include "relief/synthetic.h"
+#include "test.h"
 
 static void cameras_of_nothing_are_refused(void **state)
 {

@@ -1,12 +1,7 @@
 /* Every normal method against planes whose normal is known. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "analytic.h"
+#include "test.h"
 
 enum { WIDTH = 65, HEIGHT = 53, COUNT = WIDTH * HEIGHT };
 

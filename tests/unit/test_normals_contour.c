@@ -1,13 +1,8 @@
 /* The parts of the contour step: where a contour is, what is known on the way in, and the normal
  * that is read off it. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "surface/normals/contour.h"
+#include "test.h"
 
 #include <math.h>
 #include <string.h>

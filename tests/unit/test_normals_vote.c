@@ -2,14 +2,9 @@
  * changed is believed within a second, and what stands in front is never taken for what was there.
  */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "heavy.h"
 #include "seen_view.h"
+#include "test.h"
 
 #include <math.h>
 

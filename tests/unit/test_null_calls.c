@@ -4,13 +4,8 @@
  * tests/headers/null_calls.awk; tests/headers/may_be_null.txt lists what may be NULL. Each call has
  * a process of its own. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "count_assert.h"
+#include "test.h"
 #include "valid_arguments.h"
 
 #include <signal.h>

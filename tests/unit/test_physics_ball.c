@@ -1,13 +1,8 @@
 /* Where a thrown ball goes: off a bulge, off an edge and off a plane seen at a low angle, as exact
  * geometry says. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "grid_shared.h"
 #include "heavy.h"
+#include "test.h"
 
 #include <math.h>
 

@@ -1,12 +1,7 @@
 /* What comes at somebody from behind goes back there, though a frame has a hole in him or takes him
  * for the room: it neither stays in him nor comes out in front. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/world.h"
+#include "test.h"
 
 #include "grid_shared.h"
 

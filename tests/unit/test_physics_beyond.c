@@ -1,11 +1,6 @@
 /* What the picture's border cuts goes on beyond it: a leg down to the floor, a cupboard's front. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "grid_room.h"
+#include "test.h"
 
 #define LEG_Z 1.5
 #define LEG_SIDE 0.03

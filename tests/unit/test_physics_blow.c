@@ -1,11 +1,6 @@
 /* How blows are told: where two things met and which way, not where they are when it is told. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "physics/grid/contact/contact.h"
+#include "test.h"
 
 #include "grid_room.h"
 

@@ -1,11 +1,6 @@
 /* Bodies against bodies, live method. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/world.h"
+#include "test.h"
 
 #include "grid_fixture.h"
 

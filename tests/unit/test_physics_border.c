@@ -1,11 +1,6 @@
 /* Beyond the camera's view the room goes on, or it does not: as the world's def says. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/pipeline.h"
+#include "test.h"
 
 #include "grid_room.h"
 

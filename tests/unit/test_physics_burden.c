@@ -1,11 +1,6 @@
 /* What is light stands under what is heavy. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "grid_room.h"
+#include "test.h"
 
 #define SIDE 0.1
 #define GAP 0.0005

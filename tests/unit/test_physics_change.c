@@ -1,12 +1,7 @@
 /* What stays turns out to be nearer than it was taken to be, and a body lies there: it comes out,
  * and falls through nothing. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "grid_room.h"
+#include "test.h"
 
 #define HALF 0.05
 #define BODY_Z 2.498

@@ -1,11 +1,6 @@
 /* A body on the grid: bounce heights, friction, rest, missing pixels. Live method. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/world.h"
+#include "test.h"
 
 #include "grid_shared.h"
 

@@ -1,11 +1,6 @@
 /* Bodies that the caller moves, bodies that slow down by themselves, and who touches whom. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/world.h"
+#include "test.h"
 
 #include <math.h>
 

@@ -1,16 +1,11 @@
 /* Distance and depth of convex shapes against closed forms and against their definition; what they
  * make of bodies that cross, are fast, or lie in a heap. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "count_assert.h"
 #include "physics/shape/convex.h"
 #include "physics/shape/shape.h"
 #include "relief/query.h"
 #include "relief/world.h"
+#include "test.h"
 
 #include "grid_room.h"
 

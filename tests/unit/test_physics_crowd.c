@@ -1,12 +1,7 @@
 /* Many bodies, long stacks, lost frames and bad input: nothing explodes, nothing is allocated, and
  * the workers do not matter. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "physics/grid/cast.h"
+#include "test.h"
 
 #include "grid_shared.h"
 #include "heavy.h"

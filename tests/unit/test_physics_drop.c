@@ -1,12 +1,7 @@
 /* Bodies that fall without restitution stop where they land: a blow turns neither depth nor what is
  * above the ground into speed. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "grid_room.h"
+#include "test.h"
 
 #include <math.h>
 

@@ -1,11 +1,6 @@
 /* How deep a solid is guessed to be of which only the front is seen. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "physics/grid/field.h"
+#include "test.h"
 
 #include <math.h>
 

@@ -1,12 +1,7 @@
 /* Bodies held between sensed fingers: grasped, lifted, carried, let go, thrown; and not grabbed by
  * what only pushes, passes or rests beside. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "grid_hand.h"
+#include "test.h"
 
 #define FRAME (1.0 / 30)
 #define TABLE 0.30 /* y of its top, metres: y is down */

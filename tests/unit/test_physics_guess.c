@@ -1,11 +1,6 @@
 /* A solid of which only the front is seen is a guess: matter under its faces, not behind them. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "grid_room.h"
+#include "test.h"
 
 #define TOP_Y 0.3
 #define TOP_NEAR 1.6

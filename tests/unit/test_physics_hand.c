@@ -1,11 +1,6 @@
 /* A sensed hand that carries a stack along a curve, and a crowd that somebody walks through. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/world.h"
+#include "test.h"
 
 #include "grid_fixture.h"
 

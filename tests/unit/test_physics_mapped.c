@@ -1,11 +1,6 @@
 /* In a room that is known from a map, bodies live on where the camera does not look. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "mapped_room.h"
+#include "test.h"
 
 #define FRAME (1.0 / 30)
 

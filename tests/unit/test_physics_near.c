@@ -1,13 +1,8 @@
 /* The broad phase against every body held against every other. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "analytic.h"
 #include "physics/pair/collide.h"
 #include "relief/world.h"
+#include "test.h"
 
 #include <math.h>
 

@@ -1,12 +1,7 @@
 /* How deep a solid of which only the front is seen may be: the outline tells where it leans away
  * from what it hides. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "grid_room.h"
+#include "test.h"
 
 #define FRONT 2.0
 #define RADIUS 0.05

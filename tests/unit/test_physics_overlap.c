@@ -1,12 +1,7 @@
 /* Overlap of two shapes against distances in closed form. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "physics/shape/shape.h"
 #include "relief/query.h"
+#include "test.h"
 
 #include <math.h>
 

@@ -1,12 +1,7 @@
 /* Ray casts and overlaps: every reason, against bodies and both sheets. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "count_assert.h"
 #include "relief/query.h"
+#include "test.h"
 
 #include "grid_fixture.h"
 

@@ -1,11 +1,6 @@
 /* Bodies across the picture's border lie on the plane that goes on as they lie within it. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "grid_room.h"
+#include "test.h"
 
 #define LEVEL 0.99995 /* cosine of 0.01 */
 #define OFF 0.002     /* m */

@@ -1,12 +1,7 @@
 /* A body that something came over does not leave it through a back behind which there is no room,
  * as the sole of a foot: the floor holds against that, and it would stay for ever. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/world.h"
+#include "test.h"
 
 #include "grid_shared.h"
 

@@ -1,12 +1,7 @@
 /* A body that sank into something thin, or over which that was seen too high, leaves it on the side
  * where its middle is. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "grid_room.h"
+#include "test.h"
 
 #define TOP_Y 0.3
 #define TOP_NEAR 1.6

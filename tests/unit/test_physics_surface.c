@@ -1,11 +1,6 @@
 /* The real surface moves: it lifts, throws and pushes; it is solid from behind. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/world.h"
+#include "test.h"
 
 #include "grid_shared.h"
 #include "heavy.h"

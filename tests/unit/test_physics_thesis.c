@@ -1,11 +1,6 @@
 /* The thesis's rigid bodies, eq. 4.5 to 4.15, C.1 and Algorithms 1 to 3, against closed forms. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "physics/thesis/thesis.h"
+#include "test.h"
 
 #include "grid_fixture.h"
 

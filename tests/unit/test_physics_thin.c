@@ -1,13 +1,8 @@
 /* Things that are a few pixels wide, hit from the side, and backs that other pixels show than those
  * under the ball: both turn what is thrown at them, as exact geometry says. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "physics/grid/contact/contact.h"
 #include "physics/world_state.h"
+#include "test.h"
 
 #include "grid_shared.h"
 #include "heavy.h"

@@ -1,11 +1,6 @@
 /* Random throws into a concave room: nothing tunnels, nothing is NaN; and what it costs. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/world.h"
+#include "test.h"
 
 #include "grid_fixture.h"
 #include "heavy.h"

@@ -1,14 +1,9 @@
 /* What tiles and pixels tell of distances, against every pixel's solid. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "grid_fixture.h"
 #include "physics/grid/cast.h"
 #include "physics/grid/contact/search.h"
 #include "physics/grid/tiles.h"
+#include "test.h"
 
 #include <math.h>
 

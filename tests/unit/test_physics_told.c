@@ -1,12 +1,7 @@
 /* A tray moves before its motion is told: a body that rests on it is still where the tray was. From
  * the first frame that tells, it is taken along, and has the way that it was not told. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "grid_shared.h"
+#include "test.h"
 
 #include <math.h>
 

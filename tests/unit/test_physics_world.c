@@ -1,11 +1,6 @@
 /* The world's manners: defs, handles, capacity, bounds, determinism, no allocation. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/world.h"
+#include "test.h"
 
 #include "count_assert.h"
 #include "grid_fixture.h"

@@ -1,12 +1,7 @@
 /* The frame loop over a source of analytic frames: a floor seen from above. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/pipeline.h"
+#include "test.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,12 +1,7 @@
 /* Bodies wait while there is no depth, before the room was seen and after: a covered lens. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/pipeline.h"
+#include "test.h"
 
 #include <string.h>
 

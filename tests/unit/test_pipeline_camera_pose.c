@@ -1,13 +1,8 @@
 /* The tracker and the map together, where the camera sees nothing, jumps, or looks at what is not
  * the room. The room: walls and three boxes with patches of grey. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "pipeline/moving/moving.h"
+#include "test.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,12 +1,7 @@
 /* What a person hides: a trunk seen from the side, with an arm before it and one stretched out. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "pipeline/far_side.h"
+#include "test.h"
 
 #include <string.h>
 

@@ -1,12 +1,8 @@
 /* Hands through the whole frame loop: a drawn hand comes in before a wall, opens and pinches. */
 #include "hand_scene.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
-
 #include "relief/pipeline.h"
+#include "test.h"
 
 enum { EMPTY_FRAMES = 12, OPEN_FRAMES = 10, ALL_FRAMES = 34 };
 #define FRAME_NS INT64_C(33333333)

@@ -1,12 +1,7 @@
 /* The frame loop with a camera that moves: a corner of a room, cast ray by ray, and a script. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/pipeline.h"
+#include "test.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,13 +1,8 @@
 /* Frames that a program pushes give what the same frames give when a source is asked for them. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/pipeline.h"
 #include "relief/synthetic.h"
+#include "test.h"
 
 #include <string.h>
 

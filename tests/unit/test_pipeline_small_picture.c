@@ -1,14 +1,9 @@
 /* Tracker and map with pixels that are larger than voxels, in a room whose walls lie right on
  * voxels, and depth of whole millimetres without noise. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "pipeline/moving/moving.h"
 #include "relief/reconstruct.h"
+#include "test.h"
 
 #include <string.h>
 

@@ -1,13 +1,8 @@
 /* The frame loop while a camera turns in place before walls and boxes without colour: when the wall
  * beside it has left the view, outlines alone seem to tell how far it slides along the other. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/pipeline.h"
+#include "test.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,13 +1,8 @@
 /* Registration: planes keep their analytic depth, near surfaces win, the parallax shadow lies on
  * the right side with the right width and takes the far side's depth. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/camera.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,13 +1,8 @@
 /* Registration of a part of the picture: the pixels that are asked for are those of the whole
  * picture to the bit, and few columns of the depth image are looked at. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "camera/register.h"
+#include "test.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,12 +1,7 @@
 /* The view of the fused room, and what a moving camera must not smear. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "render_scene.h"
+#include "test.h"
 
 #include <math.h>
 

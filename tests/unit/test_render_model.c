@@ -1,12 +1,7 @@
 /* Models: what they are made of, and how the CPU renderer draws them. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "model_sample.h"
 #include "render_scene.h"
+#include "test.h"
 
 #define GOLDEN_HASH 0x0ee6c670d02ebe48u
 

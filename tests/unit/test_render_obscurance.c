@@ -1,13 +1,8 @@
 /* Real surfaces keep light around from bodies close to them: by a formula that is held to its
  * integral, where the depth image shows such surfaces, and in pictures. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "render/real_shade.h"
+#include "test.h"
 
 #include <math.h>
 

@@ -1,12 +1,7 @@
 /* Points from a free viewpoint, contacts and the plot: where geometry says they must be. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "render_scene.h"
+#include "test.h"
 
 #include <math.h>
 

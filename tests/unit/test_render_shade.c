@@ -1,12 +1,7 @@
 /* Real things keep the light from bodies: by their shape, as far as the depth image knows it. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "render/real_shade.h"
+#include "test.h"
 
 #include <math.h>
 

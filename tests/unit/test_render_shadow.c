@@ -1,13 +1,8 @@
 /* Shadows and contact darkening: where geometry says, by the body's real shape, on surfaces and on
  * other bodies; and what is left out can really take no light. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "render/caster.h"
+#include "test.h"
 
 #include <math.h>
 

@@ -1,13 +1,8 @@
 /* Soft occlusion: edges follow the colour image where it shows them, the depth where it does not,
  * and stay still where nothing changes. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/compositor.h"
+#include "test.h"
 
 #include <math.h>
 

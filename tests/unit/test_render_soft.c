@@ -1,13 +1,8 @@
 /* The CPU renderer against geometry: silhouettes, what hides what, and that nothing depends on
  * threads, order or memory. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/compositor.h"
+#include "test.h"
 
 #include <math.h>
 

@@ -1,12 +1,7 @@
 /* Views, text and sizes: each plane's pixel has the colour it should, in pictures of any size. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/compositor.h"
+#include "test.h"
 
 #include <math.h>
 #include <string.h>

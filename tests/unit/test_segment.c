@@ -1,13 +1,8 @@
 /* Segmentation eq. 4.4, regions, dilation, and what is stored of each region. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "analytic.h"
 #include "surface/steps.h"
+#include "test.h"
 
 /* A stage whose whole picture is segmented: no background, nothing filtered. */
 static rlf_reconstruct *make_stage(int32_t width, int32_t height, rlf_segment_method method,

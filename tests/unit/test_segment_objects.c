@@ -1,12 +1,7 @@
 /* Things on a table are regions of their own, those that touch as well, and stay what they are. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "seen_view.h"
+#include "test.h"
 
 #include <math.h>
 #include <string.h>

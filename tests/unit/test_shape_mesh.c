@@ -1,13 +1,8 @@
 /* The unit meshes are closed, face outwards and enclose the volume of their shapes; the textures'
  * levels are means. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "render/body_texture.h"
 #include "render/shape_mesh.h"
+#include "test.h"
 
 static rlf_vec3 body_point(const shape_vertex *v, const shape_mesh_scale *s)
 {

@@ -1,12 +1,7 @@
 /* The source object: a caller's methods behind rlf_source. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/source.h"
+#include "test.h"
 
 #include <string.h>
 

@@ -1,12 +1,7 @@
 /* Depth out of the range, mostly, is told once: its unit is wrong. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/source.h"
+#include "test.h"
 
 #include <string.h>
 

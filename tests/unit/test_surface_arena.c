@@ -1,13 +1,8 @@
 /* The stage's arena: what is taken lies apart, what is lent is shared between owners only. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "base/guard.h"
 #include "base/arena.h"
+#include "base/guard.h"
+#include "test.h"
 
 enum { COUNT = 5000 };
 

@@ -1,13 +1,8 @@
 /* Dropped pixels at the outline of a disc before a wall: the colour picture tells their side, also
  * when it is not where it should be, and does nothing when it shows something else. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/reconstruct.h"
+#include "test.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,12 +1,7 @@
 /* Normals at creases: two walls that meet, towards the camera or away from it. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "analytic.h"
+#include "test.h"
 
 #include <math.h>
 

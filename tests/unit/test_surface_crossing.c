@@ -1,14 +1,9 @@
 /* Two people who walk past each other: each keeps his label, whoever is hidden meanwhile. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "heavy.h"
 #include "relief/reconstruct.h"
 #include "relief/synthetic.h"
+#include "test.h"
 
 /* Both are inside the picture, apart; then one hides the other; then they are apart again. */
 enum { FRAMES = 122, APART_FROM = 48, HIDDEN_FROM = 72, HIDDEN_TO = 86, LABELS = 256 };

@@ -1,12 +1,7 @@
 /* One invalid pixel in a hundred costs nothing. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "analytic.h"
+#include "test.h"
 
 enum { WIDTH = 256, HEIGHT = 192, COUNT = WIDTH * HEIGHT };
 

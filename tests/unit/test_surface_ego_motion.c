@@ -1,12 +1,7 @@
 /* A camera that moves is told, and people who move before a camera that stands are not. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "seen_view.h"
+#include "test.h"
 
 enum { WIDTH = 160, HEIGHT = 120, COUNT = WIDTH * HEIGHT, STILL = 20, TOLD = 10, LEARNING = 5 };
 

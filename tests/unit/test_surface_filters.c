@@ -1,12 +1,7 @@
 /* The two depth filters: smoothing within planes and steadying over time. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "seen_view.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,14 +1,9 @@
 /* The surface stage on frames that no room shows: no false word about them, no NaN, no crash. What
  * they cost is printed by lab/bench/bench_hostile.c. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "hostile.h"
 #include "surface_check.h"
+#include "test.h"
 
 typedef struct run {
     rlf_rig rig;

@@ -1,13 +1,8 @@
 /* Index lists of the organised mesh, fig. 4.3. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "count_assert.h"
 #include "relief/surface.h"
+#include "test.h"
 
 static void count_is_six_per_square(void **state)
 {

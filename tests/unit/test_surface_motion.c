@@ -1,12 +1,7 @@
 /* Velocity and thickness of the front sheet against bodies whose motion and shape are known. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "analytic.h"
+#include "test.h"
 
 enum { WIDTH = 256, HEIGHT = 212, COUNT = WIDTH * HEIGHT };
 

@@ -1,12 +1,7 @@
 /* Filled pixels at the outline of things: their side and their normals. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "seen_view.h"
+#include "test.h"
 
 #include <math.h>
 

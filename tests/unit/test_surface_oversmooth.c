@@ -1,13 +1,8 @@
 /* Pixels that a plane has moved go back where they were seen if those about them are there, and
  * stay where it has put them if those are. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "surface/steps.h"
+#include "test.h"
 
 #include <string.h>
 

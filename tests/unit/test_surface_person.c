@@ -1,15 +1,10 @@
 /* A person who walks through the synthetic room, as the surface stage sees him: one region with one
  * label, where he is, moving as he does. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "heavy.h"
 #include "relief/reconstruct.h"
 #include "relief/synthetic.h"
+#include "test.h"
 
 #include <stdlib.h>
 

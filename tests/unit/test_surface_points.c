@@ -1,12 +1,7 @@
 /* Point cloud eq. 4.1: decimation, units, ranges, reasons, rays, strides. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "analytic.h"
+#include "test.h"
 
 #include <math.h>
 

@@ -1,12 +1,7 @@
 /* Dropped pixels recalled from the frames before: what still stands is there, what left is not. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "seen_view.h"
+#include "test.h"
 
 #include <math.h>
 

@@ -1,13 +1,8 @@
 /* Narrow things before a wall, of which the sensor drops the edges: a post's side that is a pixel
  * or two wide, a plate that has none, the wall in a slit. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "seen_view.h"
+#include "test.h"
 
 enum { WIDTH = 256, HEIGHT = 64, COUNT = WIDTH * HEIGHT, FRAMES = 24 };
 

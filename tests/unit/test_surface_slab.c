@@ -2,16 +2,11 @@
  * what their faces showed says where a ray leaves them when only the edge is seen. And a barrel,
  * which is no plate. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "heavy.h"
 #include "seen_view.h"
 #include "surface/stage.h"
 #include "surface/thin/slab.h"
+#include "test.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,14 +1,9 @@
 /* The stage as a whole: memory, lifetime of surfaces, determinism, bad input. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "analytic.h"
 #include "surface/stage.h"
 #include "surface_check.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdlib.h>

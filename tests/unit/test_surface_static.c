@@ -1,13 +1,8 @@
 /* The thickness of what stands, against a room whose backs are known: a floor, a wall, and on the
  * floor a ball and a box that shows two sides and its top; with the sensor's noise. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "analytic.h"
 #include "heavy.h"
+#include "test.h"
 
 #include <string.h>
 

@@ -1,12 +1,7 @@
 /* What is curved and stands still: windows of normals shrink as averaging lowers the noise. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "seen_view.h"
+#include "test.h"
 
 #include <math.h>
 

@@ -1,14 +1,9 @@
 /* Depth of the back against bodies whose back is known: quadrics, boxes, bodies that touch, hide
  * one another or leave the image; all with the sensor's noise. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "analytic.h"
 #include "heavy.h"
+#include "test.h"
 
 enum { WIDTH = 512, HEIGHT = 424, COUNT = WIDTH * HEIGHT, BODIES = 4 };
 

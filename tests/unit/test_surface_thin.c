@@ -2,14 +2,9 @@
  * itself, and while the sensor loses it between the two bands that it takes from its edges, it is
  * still there; but not for long, and not where the wall behind is seen. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "seen_view.h"
 #include "surface/stage.h"
+#include "test.h"
 
 #include <math.h>
 

@@ -1,12 +1,7 @@
 /* Times of the surface stage's steps: they add up, and nothing depends on them. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "analytic.h"
+#include "test.h"
 
 #include <string.h>
 

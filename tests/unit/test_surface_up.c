@@ -1,12 +1,7 @@
 /* Which way is up, in analytic rooms seen by tilted and rolled cameras. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "analytic.h"
+#include "test.h"
 
 #define WIDTH 160
 #define HEIGHT 120

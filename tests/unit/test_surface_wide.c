@@ -1,12 +1,7 @@
 /* Wider planes for rough sensors: whose noise is alike in neighbouring pixels. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "seen_view.h"
+#include "test.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,15 +2,10 @@
  * bits.
  */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "sim/scene.h"
 #include "heavy.h"
 #include "relief/synthetic.h"
+#include "sim/scene.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdio.h>

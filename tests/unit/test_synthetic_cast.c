@@ -1,13 +1,8 @@
 /* The caster leaves out what a ray cannot meet; what it finds is what a search among all finds. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "sim/cast.h"
 #include "sim/path.h"
+#include "test.h"
 
 static synth_hit search(const synth_scene *scene, const synth_ray *ray)
 {

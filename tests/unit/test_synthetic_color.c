@@ -1,12 +1,7 @@
 /* The colour camera's picture where the room covers a mover. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/synthetic.h"
+#include "test.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,13 +1,8 @@
 /* Scripted hands: their truth lies in the hands that the sensor sees, and the fingers meet where
  * the virtual body stands. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/snapshot.h"
 #include "relief/synthetic.h"
+#include "test.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,11 +1,6 @@
 /* The true scene at any time: distances, and the velocity that moves them. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/synthetic.h"
+#include "test.h"
 
 #include <math.h>
 

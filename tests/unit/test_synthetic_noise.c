@@ -1,14 +1,9 @@
 /* The synthetic sensor's noise: statistics against the published model and table 5.1. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
+#include "relief/synthetic.h"
 #include "sim/hash.h"
 #include "sim/noise.h"
-#include "relief/synthetic.h"
+#include "test.h"
 
 #include <math.h>
 #include <string.h>

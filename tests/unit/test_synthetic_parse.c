@@ -1,12 +1,7 @@
 /* "synthetic:..." strings: what they set, and what is said about wrong ones. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/synthetic.h"
+#include "test.h"
 
 #include <string.h>
 

@@ -1,12 +1,7 @@
 /* A synthetic camera that moves: its poses and its pictures tell the same story. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/synthetic.h"
+#include "test.h"
 
 #include <string.h>
 

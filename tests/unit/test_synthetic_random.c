@@ -1,16 +1,11 @@
 /* Rooms drawn at random: the same seed gives the same bits, truth agrees with rays cast at it, and
  * every seed gives a room that a camera sees. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include "sim/shape.h"
-#include "relief/base.h"
 #include "heavy.h"
+#include "relief/base.h"
 #include "relief/synthetic.h"
+#include "sim/shape.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,12 +1,7 @@
 /* Rays and distances against the solids: known answers, and each against the other. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "sim/shape.h"
+#include "test.h"
 
 #include <math.h>
 

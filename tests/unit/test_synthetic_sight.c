@@ -1,12 +1,7 @@
 /* rlf_synthetic_cast against the truth planes, and its independence of how rays are grouped. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/synthetic.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,12 +1,7 @@
 /* Pipelines in several threads at once: none knows of the others. The thread sanitizer's build runs
  * this as well. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "golden_hash.h"
+#include "test.h"
 
 #include <pthread.h>
 #include <stdio.h>

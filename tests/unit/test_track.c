@@ -1,12 +1,7 @@
 /* The tracker against rooms of planes, of which everything is known. */
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "relief/track.h"
+#include "test.h"
 
 #include <math.h>
 #include <string.h>
