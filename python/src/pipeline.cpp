@@ -351,7 +351,7 @@ void bind_pipeline(py::module_ &m)
              "source: a name as for open(), a Source, or a Rig or Camera whose frames are pushed. "
              "scene: the path of a scene.json. gravity: m/s^2, world. hands: looks for them. grab: "
              "hands hold what they close on. threads 0 = one per processor. settings: of the surface in "
-             "place of the profile's, as {\"hold\": False}; `relief settings` lists them. scale: every so many pixels have a point; 0 = the profile's.")
+             "place of the profile's, as {\"hold\": False}; `relief list settings` lists them. scale: every so many pixels have a point; 0 = the profile's.")
         .def("step", &Pipeline::step, "The next Step; None when a live camera has nothing new.")
         .def("push", &Pipeline::push, py::arg("depth"), py::arg("color") = py::none(),
              py::kw_only(), py::arg("time"), py::arg("units_per_metre") = 1000.0,

@@ -76,7 +76,7 @@ static inline rlf_pose viewer_camera(const viewer *v)
     return v->has_frame ? v->frame.T_world_camera : v->options->T_world_camera;
 }
 
-/* lines.c: puts a message over the picture for as long as it takes to read, and in the panel. */
+/* message.c: puts a message over the picture for as long as it takes to read, and in the panel. */
 void viewer_show_message(viewer *v, const char *text);
 /* Of something that failed: in full screen, too. */
 void viewer_show_error(viewer *v, const char *text);
@@ -85,7 +85,7 @@ void viewer_show_result(viewer *v, rlf_result result, const char *text);
 /* Ends those over the picture whose time is over. */
 void viewer_end_old_messages(viewer *v, int64_t now_ns);
 
-/* overlay.c: the window's part for the picture, in the unit of mouse positions. */
+/* area.c: the window's part for the picture, in the unit of mouse positions. */
 void viewer_get_area(const viewer *v, int32_t *out_width, int32_t *out_height);
 bool viewer_is_overlay_shown(const viewer *v);
 /* Makes an overlay image of that size, clear; false without memory. */

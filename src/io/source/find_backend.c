@@ -110,10 +110,11 @@ static rlf_result fail_scheme(const char *source, const char *scheme)
     char guess[GUESS_TEXT];
     join_schemes(words);
     guess_scheme(scheme, guess);
-    return rlf_fail(RLF_ERROR_UNSUPPORTED,
-                    "'%s': there is no kind of source \"%.40s:\"%s This build has %s (see `relief "
-                    "sources`)",
-                    source, scheme, guess[0] != '\0' ? guess : ".", words);
+    return rlf_fail(
+        RLF_ERROR_UNSUPPORTED,
+        "'%s': there is no kind of source \"%.40s:\"%s This build has %s (see `relief list "
+        "sources`)",
+        source, scheme, guess[0] != '\0' ? guess : ".", words);
 }
 
 static rlf_result fail_path(const char *source, const char *path)
