@@ -89,7 +89,7 @@ quit() {
 room='synthetic:room?color=480x270'
 fast='--scale 4 --threads 1' # the tasks are the window's
 # shellcheck disable=SC2086
-start "$room" --log log --end loop $fast
+start "$room" --log log --window end=loop $fast
 until_true "the room is not there" has_text
 is_bright "$picture" || fail "the picture is dark"
 echo "1 the demo runs"
