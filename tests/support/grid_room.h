@@ -3,6 +3,7 @@
 #ifndef RLF_TEST_GRID_ROOM_H
 #define RLF_TEST_GRID_ROOM_H
 
+#include "small_world.h"
 #include "test.h"
 #include "relief/world.h"
 
@@ -76,7 +77,7 @@ typedef struct grid_room_way {
 static inline grid_room_way grid_room_run(rlf_border border, const rlf_body_def *def, int frames)
 {
     grid_room_way way = {.is_there = true, .farthest_z = 0.0};
-    rlf_world_def world_def = rlf_world_def_default();
+    rlf_world_def world_def = small_world_def();
     world_def.border = border;
     world_def.body_capacity = 1;
     world_def.gravity.y *= grid_room_down;

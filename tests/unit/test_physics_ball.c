@@ -2,6 +2,7 @@
  * geometry says. */
 #include "grid_shared.h"
 #include "heavy.h"
+#include "small_world.h"
 #include "test.h"
 
 #include <math.h>
@@ -11,7 +12,7 @@
 /* Direction in which a ball without friction and with restitution 0.8 flies 0.5 s after. */
 static rlf_vec3 thrown(rlf_vec3 from, rlf_vec3 velocity, double radius)
 {
-    rlf_world_def world_def = rlf_world_def_default();
+    rlf_world_def world_def = small_world_def();
     world_def.gravity = rlf_vec3_make(0, 0, 0);
     rlf_world *world = NULL;
     assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);

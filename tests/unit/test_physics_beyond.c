@@ -1,5 +1,6 @@
 /* What the picture's border cuts goes on beyond it: a leg down to the floor, a cupboard's front. */
 #include "grid_room.h"
+#include "small_world.h"
 #include "test.h"
 
 #define LEG_Z 1.5
@@ -212,7 +213,7 @@ static void a_new_fit_throws_nothing(void **state)
 {
     (void)state;
     const double SLOPE = 0.011, MOST = 0.0015;
-    rlf_world_def world_def = rlf_world_def_default();
+    rlf_world_def world_def = small_world_def();
     world_def.border = RLF_BORDER_EXTEND;
     rlf_body_def def = rlf_body_def_default();
     def.shape = (rlf_shape){.type = RLF_SHAPE_BOX, .size = {0.1, 0.1, 0.1}};

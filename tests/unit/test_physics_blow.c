@@ -1,5 +1,6 @@
 /* How blows are told: where two things met and which way, not where they are when it is told. */
 #include "physics/grid/contact/contact.h"
+#include "small_world.h"
 #include "test.h"
 
 #include "grid_room.h"
@@ -23,7 +24,7 @@ static rlf_contact hardest(const rlf_world *world)
 static rlf_contact blow_on_edge(double gap, double step)
 {
     const double HALF_DIAGONAL = 0.1 * sqrt(2.0);
-    rlf_world_def world_def = rlf_world_def_default();
+    rlf_world_def world_def = small_world_def();
     world_def.body_capacity = 2;
     world_def.gravity = rlf_vec3_make(0, 0, 0);
     rlf_world *world = NULL;

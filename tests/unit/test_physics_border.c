@@ -1,5 +1,6 @@
 /* Beyond the camera's view the room goes on, or it does not: as the world's def says. */
 #include "relief/pipeline.h"
+#include "small_world.h"
 #include "test.h"
 
 #include "grid_room.h"
@@ -112,7 +113,7 @@ static void first_ball_does_not_fall_past_the_floor(void **state)
 static void wrong_border_is_refused(void **state)
 {
     (void)state;
-    rlf_world_def def = rlf_world_def_default();
+    rlf_world_def def = small_world_def();
     def.border = (rlf_border)7;
     rlf_world *world = NULL;
     assert_int_equal(rlf_world_create(&def, &world), RLF_ERROR_INVALID);

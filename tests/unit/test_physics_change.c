@@ -1,6 +1,7 @@
 /* What stays turns out to be nearer than it was taken to be, and a body lies there: it comes out,
  * and falls through nothing. */
 #include "grid_room.h"
+#include "small_world.h"
 #include "test.h"
 
 #define HALF 0.05
@@ -46,7 +47,7 @@ static rlf_body_state go_on(rlf_world *world, int frames)
 /* A body that lies at height y while the block is `before`, and two seconds after it is `after`. */
 static rlf_vec3 change(rlf_shape_type type, double y, const block *before, const block *after)
 {
-    rlf_world_def world_def = rlf_world_def_default();
+    rlf_world_def world_def = small_world_def();
     world_def.border = RLF_BORDER_EXTEND;
     rlf_world *world = NULL;
     assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);

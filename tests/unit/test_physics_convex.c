@@ -5,6 +5,7 @@
 #include "physics/shape/shape.h"
 #include "relief/query.h"
 #include "relief/world.h"
+#include "small_world.h"
 #include "test.h"
 
 #include "grid_room.h"
@@ -202,7 +203,7 @@ static void distance_to_a_hull_is_exact(void **state)
 
 static rlf_world *make_world(double gravity)
 {
-    rlf_world_def def = rlf_world_def_default();
+    rlf_world_def def = small_world_def();
     def.gravity = rlf_vec3_make(0, gravity, 0);
     def.body_capacity = 64;
     def.contact_capacity = 256;

@@ -1,6 +1,7 @@
 /* Bodies that fall without restitution stop where they land: a blow turns neither depth nor what is
  * above the ground into speed. */
 #include "grid_room.h"
+#include "small_world.h"
 #include "test.h"
 
 #include <math.h>
@@ -70,7 +71,7 @@ static const double below[SHAPES] = {0.5, 0.5, 0.5, 0.5, 0.2, 0.2, 0.25};
 static rlf_world *drop_all(int shape, int size, bool is_flat)
 {
     const rlf_vec3 places[PLACES] = {{0.3, 0, 3.0}, {-0.4, 0, 2.5}, {0.9, 0, 2.0}, {0.0, 0, 3.7}};
-    rlf_world_def world_def = rlf_world_def_default();
+    rlf_world_def world_def = small_world_def();
     world_def.body_capacity = DROPS;
     rlf_world *world = NULL;
     assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);

@@ -1,6 +1,7 @@
 /* Bodies held between sensed fingers: grasped, lifted, carried, let go, thrown; and not grabbed by
  * what only pushes, passes or rests beside. */
 #include "grid_hand.h"
+#include "small_world.h"
 #include "test.h"
 
 #define FRAME (1.0 / 30)
@@ -17,7 +18,7 @@ typedef struct grasp {
 
 static rlf_world *make_world(const rlf_shape *shape, rlf_vec3 at, rlf_body_id *id)
 {
-    rlf_world_def def = rlf_world_def_default();
+    rlf_world_def def = small_world_def();
     def.body_capacity = 8;
     def.enable_grab = true;
     rlf_world *world = NULL;

@@ -1,5 +1,6 @@
 /* A sensed hand that carries a stack along a curve, and a crowd that somebody walks through. */
 #include "relief/world.h"
+#include "small_world.h"
 #include "test.h"
 
 #include "grid_fixture.h"
@@ -11,7 +12,7 @@
 
 static rlf_world *make_world(void)
 {
-    rlf_world_def def = rlf_world_def_default();
+    rlf_world_def def = small_world_def();
     def.body_capacity = CROWD;
     rlf_world *world = NULL;
     assert_int_equal(rlf_world_create(&def, &world), RLF_OK);

@@ -1,5 +1,6 @@
 /* In a room that is known from a map, bodies live on where the camera does not look. */
 #include "mapped_room.h"
+#include "small_world.h"
 #include "test.h"
 
 #define FRAME (1.0 / 30)
@@ -29,7 +30,7 @@ static int tear_down(void **state)
 static int start(void **state)
 {
     (void)state;
-    rlf_world_def def = rlf_world_def_default();
+    rlf_world_def def = small_world_def();
     if (rlf_world_create(&def, &world) != RLF_OK) {
         return -1;
     }

@@ -1,12 +1,13 @@
 /* Free motion of the live method against closed forms. */
 #include "relief/world.h"
+#include "small_world.h"
 #include "test.h"
 
 #include <math.h>
 
 static rlf_world *make_world(rlf_vec3 gravity)
 {
-    rlf_world_def def = rlf_world_def_default();
+    rlf_world_def def = small_world_def();
     def.gravity = gravity;
     def.body_capacity = 8;
     def.contact_capacity = 64;

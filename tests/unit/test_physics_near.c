@@ -2,6 +2,7 @@
 #include "analytic.h"
 #include "physics/pair/collide.h"
 #include "relief/world.h"
+#include "small_world.h"
 #include "test.h"
 
 #include <math.h>
@@ -18,7 +19,7 @@ static double between(analytic_random *r, double low, double high)
 static rlf_world *make_crowd(analytic_random *r, double spread)
 {
     rlf_world *world = NULL;
-    rlf_world_def def = rlf_world_def_default();
+    rlf_world_def def = small_world_def();
     def.body_capacity = BODIES;
     def.contact_capacity = BODIES * BODIES * 2;
     assert_int_equal(rlf_world_create(&def, &world), RLF_OK);

@@ -1,6 +1,7 @@
 /* Ray casts and overlaps: every reason, against bodies and both sheets. */
 #include "count_assert.h"
 #include "relief/query.h"
+#include "small_world.h"
 #include "test.h"
 
 #include "grid_fixture.h"
@@ -26,7 +27,7 @@ static int set_up(void **state)
             fixture->planes[2][i] = 0.0f;
         }
     }
-    rlf_world_def world_def = rlf_world_def_default();
+    rlf_world_def world_def = small_world_def();
     if (rlf_world_create(&world_def, &world) != RLF_OK) {
         return 1;
     }

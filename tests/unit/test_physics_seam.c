@@ -1,5 +1,6 @@
 /* Bodies across the picture's border lie on the plane that goes on as they lie within it. */
 #include "grid_room.h"
+#include "small_world.h"
 #include "test.h"
 
 #define LEVEL 0.99995 /* cosine of 0.01 */
@@ -55,7 +56,7 @@ static rlf_body_def tray(const seam *g, int i)
 
 static rlf_world *add_trays(const seam *g, double height, double slide)
 {
-    rlf_world_def world_def = rlf_world_def_default();
+    rlf_world_def world_def = small_world_def();
     world_def.body_capacity = TRAYS;
     world_def.gravity = rlf_scale(g->normal, -9.81);
     rlf_world *world = NULL;

@@ -1,5 +1,6 @@
 /* The real surface moves: it lifts, throws and pushes; it is solid from behind. */
 #include "relief/world.h"
+#include "small_world.h"
 #include "test.h"
 
 #include "grid_shared.h"
@@ -11,7 +12,7 @@
 
 static rlf_world *make_world(rlf_physics_method method, double gravity)
 {
-    rlf_world_def def = rlf_world_def_default();
+    rlf_world_def def = small_world_def();
     def.method = method;
     def.gravity = rlf_vec3_make(0, gravity, 0);
     def.body_capacity = 4;

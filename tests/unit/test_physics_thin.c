@@ -2,6 +2,7 @@
  * under the ball: both turn what is thrown at them, as exact geometry says. */
 #include "physics/grid/contact/contact.h"
 #include "physics/world_state.h"
+#include "small_world.h"
 #include "test.h"
 
 #include "grid_shared.h"
@@ -40,7 +41,7 @@ static rlf_body_def body_of(rlf_shape_type type, double size)
 
 static flight throw_it(const rlf_body_def *def, double seconds)
 {
-    rlf_world_def world_def = rlf_world_def_default();
+    rlf_world_def world_def = small_world_def();
     world_def.gravity = rlf_vec3_make(0, 0, 0);
     world_def.body_capacity = 1;
     world_def.contact_capacity = 64;
@@ -139,7 +140,7 @@ static void the_last_defence_is_a_contact(void **state)
 {
     (void)state;
     set_pole(0.2, 0.2);
-    rlf_world_def world_def = rlf_world_def_default();
+    rlf_world_def world_def = small_world_def();
     rlf_world *world = NULL;
     assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
     rlf_body_def def = body_of(RLF_SHAPE_BOX, 0.1);

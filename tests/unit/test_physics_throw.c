@@ -1,5 +1,6 @@
 /* Random throws into a concave room: nothing tunnels, nothing is NaN; and what it costs. */
 #include "relief/world.h"
+#include "small_world.h"
 #include "test.h"
 
 #include "grid_fixture.h"
@@ -85,7 +86,7 @@ static void nothing_tunnels(void **state)
     int tunnelled = 0, bounced = 0, left = 0;
     double worst = 0;
     for (int i = 0; i < THROWS; i++) {
-        rlf_world_def world_def = rlf_world_def_default();
+        rlf_world_def world_def = small_world_def();
         world_def.body_capacity = 1;
         world_def.contact_capacity = 64;
         rlf_world *world = NULL;
@@ -140,7 +141,7 @@ static void throws_at(bool is_edge)
     const int count = heavy(100, 25);
     int bounced = 0, passed = 0;
     for (int i = 0; i < count; i++) {
-        rlf_world_def world_def = rlf_world_def_default();
+        rlf_world_def world_def = small_world_def();
         world_def.body_capacity = 1;
         world_def.contact_capacity = 64;
         world_def.gravity = rlf_vec3_make(0, 0, 0);

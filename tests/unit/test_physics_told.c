@@ -1,6 +1,7 @@
 /* A tray moves before its motion is told: a body that rests on it is still where the tray was. From
  * the first frame that tells, it is taken along, and has the way that it was not told. */
 #include "grid_shared.h"
+#include "small_world.h"
 #include "test.h"
 
 #include <math.h>
@@ -27,7 +28,7 @@ static void show_tray(double y, double thickness, double rising)
 static ride ride_tray(rlf_shape_type type, double thickness, double way, double speed)
 {
     const grid_plane floor = grid_floor(1.2);
-    rlf_world_def world_def = rlf_world_def_default();
+    rlf_world_def world_def = small_world_def();
     rlf_body_def def = rlf_body_def_default();
     rlf_world *world = NULL;
     ride out = {0, 0, 0};
