@@ -3,18 +3,19 @@
 
 #include "camera/pixels.h"
 
+#include <math.h>
 #include <string.h>
 
 #define SMALLER 4
-#define STARTS 6            /* keyframes that are tried after a lost track */
-#define ROUNDS 2            /* of prediction and alignment for each */
-#define SURE_OVERLAP 0.5    /* after a lost track so much must lie on the room, ... */
-#define SURE_SIGMAS 2.5     /* ... not worse than this: in another room it is 3 to 14, ... */
-#define PROOF_FRAMES 5      /* ... for so many frames before anything is fused again */
-#define FENCE_FRAMES 10     /* good frames in a row between two fences of the map */
-#define GAP_NS 200000000    /* after a longer gap nobody knows where the camera is */
-#define IN_FRONT_M 0.05     /* what is nearer than the room by more than this moves, */
-#define IN_FRONT_SIGMAS 6.0 /* and by more than this */
+#define STARTS 6         /* keyframes that are tried after a lost track */
+#define ROUNDS 2         /* of prediction and alignment for each */
+#define SURE_OVERLAP 0.5 /* after a lost track so much must lie on the room, ... */
+#define SURE_SIGMAS 2.5  /* ... not worse than this: in another room it is 3 to 14, ... */
+#define PROOF_FRAMES 5   /* ... for so many frames before anything is fused again */
+#define FENCE_FRAMES 10  /* good frames in a row between two fences of the map */
+#define GAP_NS 200000000 /* after a longer gap nobody knows where the camera is */
+#define APART_M 0.05     /* what is off the room by more than this is no part of it, */
+#define APART_SIGMAS 6.0 /* and by more than this */
 
 rlf_result camera_pose_open(camera_pose *c, const rlf_rig *rig, rlf_pool *pool)
 {
@@ -153,6 +154,14 @@ static rlf_result find_again(camera_pose *c, rlf_map *map, const rlf_track_view 
     return result;
 }
 
+/* The pose is the reference's to the bit: the tracker saw no motion. */
+static bool rests(const camera_pose *c)
+{
+    const rlf_pose *now = &c->last.T_world_camera;
+    return c->has_reference && c->last.health != RLF_TRACK_LOST &&
+           memcmp(now, &c->reference.T_world_camera, sizeof(*now)) == 0;
+}
+
 /* What was fused just before the track was lost may be wrong: it is taken back. After that poses
  * are proven before anything is fused. */
 static void guard_map(camera_pose *c, rlf_map *map)
@@ -169,33 +178,29 @@ static void guard_map(camera_pose *c, rlf_map *map)
         rlf_map_fence(map);
         c->since_fence = 0;
     }
-    c->may_fuse = is_good && c->proven >= PROOF_FRAMES;
+    /* Before a bare wall a camera that stands is weak for ever; what it sees again may be fused. */
+    const bool is_still = c->last.health == RLF_TRACK_WEAK && rests(c);
+    c->may_fuse = (is_good || is_still) && c->proven >= PROOF_FRAMES;
 }
 
-void camera_pose_mark_static(camera_pose *c, const rlf_surface *s, uint8_t *is_static)
+bool camera_pose_is_of_room(const camera_pose *c, rlf_vec3 point)
 {
     const rlf_prediction *p = &c->prediction;
-    memset(is_static, 1, (size_t)s->width * (size_t)s->height);
-    for (int32_t i = 0; c->has_prediction && i < s->width * s->height; i++) {
-        const rlf_vec3 q = rlf_surface_point(s, i);
-        const int32_t pixel = q.z > 0.0 ? camera_pixel_of(&p->camera, q) : -1;
-        const double room = pixel >= 0 ? (double)p->depth[pixel] : 0.0;
-        const double nearer =
-            rlf_max(IN_FRONT_M, IN_FRONT_SIGMAS * rlf_depth_noise_sigma(&c->noise, q.z));
-        is_static[i] = !(room > 0.0 && q.z < room - nearer);
-    }
-    settled_mark(&c->settled, c->has_prediction ? p : NULL, s, &c->last.T_world_camera, is_static);
+    const int32_t pixel =
+        c->has_prediction && point.z > 0.0 ? camera_pixel_of(&p->camera, point) : -1;
+    const double room = pixel >= 0 ? (double)p->depth[pixel] : 0.0;
+    const double apart = rlf_max(APART_M, APART_SIGMAS * rlf_depth_noise_sigma(&c->noise, point.z));
+    return room > 0.0 && fabs(point.z - room) <= apart;
 }
 
 /* What the map shows from where the camera is; a new reference when it is elsewhere. */
 static rlf_result refer(camera_pose *c, rlf_map *map)
 {
     const rlf_pose *now = &c->last.T_world_camera;
+    const bool is_at_rest = rests(c); /* at the reference as it was */
     const bool is_lost = c->last.health == RLF_TRACK_LOST;
-    const bool rests = c->has_reference && !is_lost &&
-                       memcmp(now, &c->reference.T_world_camera, sizeof(*now)) == 0;
     const rlf_result result = is_lost ? RLF_OK : camera_pose_predict(c, map, now);
-    if (!rests) {
+    if (!is_at_rest) {
         c->has_reference = c->has_prediction;
         c->reference = c->prediction;
     }

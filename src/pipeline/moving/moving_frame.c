@@ -97,6 +97,16 @@ bool moving_give(void *context, const rlf_surface *seen, rlf_given_background *o
 
 /* ---- map ---- */
 
+/* A weak pose adds nothing to the room: along its undetermined direction that could lie anywhere.
+ */
+static void leave_out_new(moving *m, const rlf_surface *s)
+{
+    for (int32_t i = 0; i < s->width * s->height; i++) {
+        m->is_static[i] =
+            m->is_static[i] && camera_pose_is_of_room(&m->pose, rlf_surface_point(s, i));
+    }
+}
+
 /* Neither what stands in front, unless it has stood there for long, nor what is beside it, nor what
  * nobody saw, nor what has come lately where the room behind is not known. */
 static void mark_static(moving *m, const rlf_surface *s)
@@ -104,6 +114,9 @@ static void mark_static(moving *m, const rlf_surface *s)
     const int32_t width = s->width, count = s->width * s->height;
     for (int32_t i = 0; i < count; i++) {
         m->is_static[i] = s->reason[i] == RLF_REASON_OK;
+    }
+    if (m->pose.last.health == RLF_TRACK_WEAK) {
+        leave_out_new(m, s);
     }
     settled_mark(&m->pose.settled, m->has_room ? &m->pose.prediction : NULL, s, &m->T_world_camera,
                  m->is_static);
