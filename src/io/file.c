@@ -39,6 +39,25 @@ void io_buffer_free(io_buffer *buffer)
     buffer->capacity = 0;
 }
 
+rlf_result io_list_grow(void **items, int32_t count, int64_t more, int32_t *room, size_t size)
+{
+    if (count + more <= *room) {
+        return RLF_OK;
+    }
+    const int64_t wanted = count + more > 2 * (int64_t)*room ? count + more : 2 * (int64_t)*room;
+    void *grown = rlf_alloc_array((size_t)wanted, size);
+    if (grown == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    if (count > 0) {
+        memcpy(grown, *items, (size_t)count * size);
+    }
+    rlf_free(*items);
+    *items = grown;
+    *room = (int32_t)wanted;
+    return RLF_OK;
+}
+
 rlf_result io_file_open(io_file *file, const char *path, const char *cure)
 {
     file->descriptor = -1;
@@ -89,6 +108,16 @@ size_t io_file_read_at(const io_file *file, int64_t position, void *out, size_t 
         done += (size_t)got;
     }
     return done;
+}
+
+rlf_result io_file_read_bytes(const io_file *file, int64_t position, size_t size, io_buffer *buffer,
+                              io_bytes *out)
+{
+    rlf_result result = io_buffer_reserve(buffer, size);
+    *out = (io_bytes){file->path, buffer->data, size};
+    return result != RLF_OK || io_file_read_at(file, position, buffer->data, size) == size
+               ? result
+               : rlf_fail(RLF_ERROR_IO, "%s: cannot be read: check the disk", file->path);
 }
 
 static rlf_result read_whole(const io_file *file, size_t limit, io_buffer *buffer, io_bytes *out)

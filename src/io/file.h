@@ -29,6 +29,10 @@ typedef struct io_buffer {
 rlf_result io_buffer_reserve(io_buffer *buffer, size_t size);
 void io_buffer_free(io_buffer *buffer);
 
+/* Makes room for `more` items behind the `count` of a list that has room for *room; they are moved,
+ * and *items with them. */
+rlf_result io_list_grow(void **items, int32_t count, int64_t more, int32_t *room, size_t size);
+
 /* A regular file that is read here and there. */
 typedef struct io_file {
     char path[IO_PATH_MAX];
@@ -42,6 +46,10 @@ rlf_result io_file_open(io_file *file, const char *path, const char *cure);
 void io_file_close(io_file *file);
 /* At most `size` bytes from `position` on; returns how many there were. Thread-safe. */
 size_t io_file_read_at(const io_file *file, int64_t position, void *out, size_t size);
+/* Exactly `size` bytes into the buffer, with the file's name in *out. RLF_ERROR_IO when they are
+ * not all there. */
+rlf_result io_file_read_bytes(const io_file *file, int64_t position, size_t size, io_buffer *buffer,
+                              io_bytes *out);
 
 /* Reads a whole regular file of at most `limit` bytes. *out points into the buffer and has the name
  * `path`. `cure` as above. */

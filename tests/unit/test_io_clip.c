@@ -47,10 +47,8 @@ static rlf_source *open_clip(reader *r)
 {
     io_clip_def def = {.name = "clip",
                        .units_per_metre = 1000.0,
-                       .depth_times = depth_times,
-                       .color_times = color_times,
-                       .depth_count = 6,
-                       .color_count = 3,
+                       .depth = {depth_times, sizeof(depth_times[0]), 6},
+                       .color = {color_times, sizeof(color_times[0]), 3},
                        .color_gap_max_ns = 20 * MS,
                        .read_depth = read_depth,
                        .read_color = read_color,
@@ -174,10 +172,8 @@ static void times_beyond_all_reason_are_refused(void **state)
         reader r = {.damaged = -1};
         io_clip_def def = {.name = "clip",
                            .units_per_metre = 1000.0,
-                           .depth_times = is_color ? good : times[i % 3],
-                           .color_times = is_color ? times[i % 3] : good,
-                           .depth_count = 2,
-                           .color_count = 2,
+                           .depth = {is_color ? good : times[i % 3], sizeof(good[0]), 2},
+                           .color = {is_color ? times[i % 3] : good, sizeof(good[0]), 2},
                            .read_depth = read_depth,
                            .read_color = read_color,
                            .self = &r};
@@ -203,8 +199,7 @@ static void ten_damaged_frames_in_a_row_end_the_clip(void **state)
     const io_clip_def def = {.name = "clip",
                              .rig = {.depth = {.width = 2, .height = 2, .fx = 1, .fy = 1}},
                              .units_per_metre = 1000.0,
-                             .depth_times = times,
-                             .depth_count = 20,
+                             .depth = {times, sizeof(times[0]), 20},
                              .read_depth = read_depth,
                              .self = &r};
     for (int longer = 0; longer < 2; longer++) {

@@ -462,14 +462,15 @@ static void sources_that_cannot_be_opened(void **state)
 static void nearest_of_times(void **state)
 {
     (void)state;
-    const int64_t list[3] = {10, 20, 40};
+    const int64_t known[3] = {10, 20, 40};
+    const io_times list = {known, sizeof(known[0]), 3}, none = {.count = 0};
     const int64_t times[7] = {0, 10, 14, 15, 16, 30, 45};
     const int32_t nearest[7] = {0, 0, 0, 0, 1, 1, 2};
     for (int i = 0; i < 7; i++) {
-        assert_int_equal(io_time_nearest(list, 3, times[i], 10), nearest[i]);
+        assert_int_equal(io_time_nearest(&list, times[i], 10), nearest[i]);
     }
-    assert_int_equal(io_time_nearest(list, 3, 51, 10), -1);
-    assert_int_equal(io_time_nearest(list, 0, 0, INT64_MAX - 1), -1);
+    assert_int_equal(io_time_nearest(&list, 51, 10), -1);
+    assert_int_equal(io_time_nearest(&none, 0, INT64_MAX - 1), -1);
 }
 
 typedef struct clip {

@@ -70,7 +70,7 @@ static void count_given(clip *c, const clip_frame *f)
         const int64_t step = f->sequence - f[-1].sequence; /* a count may have begun anew */
         c->lost += step > 1 ? (uint64_t)step - 1 : 0;
     }
-    c->unpaired += c->def.color_count > 0 && f->color < 0 ? 1 : 0;
+    c->unpaired += c->def.color.count > 0 && f->color < 0 ? 1 : 0;
 }
 
 /* A depth picture that cannot be read leaves its frame out. */
@@ -212,7 +212,7 @@ static void follow_times(const clip *c, int64_t interval_ns, clip_frame *f)
             f[-1].sequence + 1 + (d->origin.has_notes ? 0 : io_time_lost(gap_ns, interval_ns));
     }
     f->flags = d->flags;
-    f->color = io_time_nearest(d->color_times, d->color_count, f->time_ns, gap_max);
+    f->color = io_time_nearest(&d->color, f->time_ns, gap_max);
 }
 
 static void follow_note(const clip *c, clip_frame *f)
@@ -225,17 +225,15 @@ static void follow_note(const clip *c, clip_frame *f)
     }
     f->sequence = (int64_t)note->sequence;
     f->flags = note->flags;
-    f->color = note->has_color
-                   ? io_time_nearest(d->color_times, d->color_count, note->color_time_ns, 0)
-                   : -1;
+    f->color = note->has_color ? io_time_nearest(&d->color, note->color_time_ns, 0) : -1;
 }
 
 /* Of two frames with the same time the first is given. */
 static void list_frames(clip *c, int64_t interval_ns)
 {
     const io_clip_def *d = &c->def;
-    for (int32_t i = 0; i < d->depth_count; i++) {
-        const int64_t time_ns = d->depth_times[i];
+    for (int32_t i = 0; i < d->depth.count; i++) {
+        const int64_t time_ns = io_time_at(&d->depth, i);
         if (c->count > 0 && time_ns == c->frames[c->count - 1].time_ns) {
             c->doubled++;
             continue;
@@ -245,7 +243,7 @@ static void list_frames(clip *c, int64_t interval_ns)
         f->time_ns = time_ns;
         follow_times(c, interval_ns, f);
         follow_note(c, f);
-        f->color_time_ns = f->color >= 0 ? d->color_times[f->color] : 0;
+        f->color_time_ns = f->color >= 0 ? io_time_at(&d->color, f->color) : 0;
         f->pose = d->poses != NULL ? d->poses[i] : rlf_pose_identity();
         const rlf_quat q = f->pose.q;
         const double square = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
@@ -253,8 +251,7 @@ static void list_frames(clip *c, int64_t interval_ns)
             d->poses != NULL && fabs(square - 1.0) < 1e-3 && rlf_vec3_is_finite(f->pose.p);
     }
     /* The reader's arrays were the caller's. */
-    c->def.depth_times = NULL;
-    c->def.color_times = NULL;
+    c->def.depth.first = c->def.color.first = NULL;
     c->def.poses = NULL;
     c->def.origin.notes = NULL;
 }
@@ -263,7 +260,7 @@ static rlf_result allocate(clip *c)
 {
     const rlf_rig *rig = &c->def.rig;
     const size_t depth_size = c->def.units_per_metre > 0.0 ? 2 : 4;
-    c->frames = rlf_alloc_array((size_t)c->def.depth_count, sizeof(c->frames[0]));
+    c->frames = rlf_alloc_array((size_t)c->def.depth.count, sizeof(c->frames[0]));
     c->depth = rlf_alloc_array((size_t)rig->depth.width * (size_t)rig->depth.height, depth_size);
     if (c->frames == NULL || c->depth == NULL) {
         return RLF_ERROR_MEMORY;
@@ -278,22 +275,6 @@ static rlf_result allocate(clip *c)
     return RLF_OK;
 }
 
-static rlf_result interval_of(const int64_t *times, int32_t count, int64_t *out_ns)
-{
-    int64_t *scratch = rlf_alloc_array((size_t)count, sizeof(scratch[0]));
-    *out_ns = scratch != NULL ? io_time_interval(times, count, scratch) : 0;
-    rlf_free(scratch);
-    return scratch != NULL ? RLF_OK : RLF_ERROR_MEMORY;
-}
-
-rlf_result io_clip_rate(const int64_t *times, int32_t count, double *out_frames_per_second)
-{
-    int64_t interval_ns = 0;
-    rlf_result result = interval_of(times, count, &interval_ns);
-    *out_frames_per_second = interval_ns > 0 ? 1e9 / (double)interval_ns : 0.0;
-    return result;
-}
-
 static void describe(const clip *c, int64_t interval_ns, rlf_opened *out)
 {
     static const rlf_source_methods methods = {.next = clip_next,
@@ -304,6 +285,9 @@ static void describe(const clip *c, int64_t interval_ns, rlf_opened *out)
     memset(out, 0, sizeof(*out));
     out->methods = methods;
     snprintf(out->info.name, sizeof(out->info.name), "%.127s", c->def.name);
+    if (c->def.device != NULL) {
+        snprintf(out->info.device, sizeof(out->info.device), "%s", c->def.device);
+    }
     out->info.rig = c->def.rig;
     out->info.frame_count = c->count;
     const io_clip_origin *origin = &c->def.origin;
@@ -318,21 +302,20 @@ static void describe(const clip *c, int64_t interval_ns, rlf_opened *out)
 static rlf_result check_rig(const io_clip_def *def)
 {
     rlf_result result = rlf_camera_check(&def->rig.depth, def->name);
-    if (result == RLF_OK && def->rig.has_color && def->color_count > 0) {
+    if (result == RLF_OK && def->rig.has_color && def->color.count > 0) {
         result = rlf_camera_check(&def->rig.color, def->name);
     }
     return result;
 }
 
-static rlf_result check_times(const char *name, const char *kind, const int64_t *times,
-                              int32_t count)
+static rlf_result check_times(const char *name, const char *kind, const io_times *times)
 {
-    for (int32_t i = 0; i < count; i++) {
-        if (!io_time_is_usable(times[i])) {
+    for (int32_t i = 0; i < times->count; i++) {
+        if (!io_time_is_usable(io_time_at(times, i))) {
             return rlf_fail(RLF_ERROR_FORMAT,
                             "%s: %s picture %d has the time %lld ns, more than 146 years: record "
                             "it again, or correct its times",
-                            name, kind, (int)i, (long long)times[i]);
+                            name, kind, (int)i, (long long)io_time_at(times, i));
         }
     }
     return RLF_OK;
@@ -340,15 +323,15 @@ static rlf_result check_times(const char *name, const char *kind, const int64_t 
 
 rlf_result io_clip_open(const io_clip_def *def, rlf_opened *out)
 {
-    if (def->depth_count < 1) {
+    if (def->depth.count < 1) {
         return rlf_fail(RLF_ERROR_FORMAT, "%s: holds no depth pictures", def->name);
     }
     rlf_result result = check_rig(def);
     if (result == RLF_OK) {
-        result = check_times(def->name, "depth", def->depth_times, def->depth_count);
+        result = check_times(def->name, "depth", &def->depth);
     }
     if (result == RLF_OK) {
-        result = check_times(def->name, "colour", def->color_times, def->color_count);
+        result = check_times(def->name, "colour", &def->color);
     }
     if (result != RLF_OK) {
         return result;
@@ -358,8 +341,8 @@ rlf_result io_clip_open(const io_clip_def *def, rlf_opened *out)
         return RLF_ERROR_MEMORY;
     }
     c->def = *def;
-    c->def.rig.has_color = def->rig.has_color && def->color_count > 0;
-    c->def.color_count = c->def.rig.has_color ? def->color_count : 0;
+    c->def.rig.has_color = def->rig.has_color && def->color.count > 0;
+    c->def.color.count = c->def.rig.has_color ? def->color.count : 0;
     snprintf(c->name, sizeof(c->name), "%s", def->name);
     c->def.name = c->name;
     c->shown_color = -1;
@@ -367,7 +350,7 @@ rlf_result io_clip_open(const io_clip_def *def, rlf_opened *out)
     int64_t interval_ns = 0;
     result = allocate(c);
     if (result == RLF_OK) {
-        result = interval_of(def->depth_times, def->depth_count, &interval_ns);
+        result = io_time_interval(&def->depth, &interval_ns);
     }
     if (result != RLF_OK) {
         free_clip(c);

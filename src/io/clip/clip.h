@@ -3,19 +3,19 @@
 #ifndef RLF_IO_CLIP_CLIP_H
 #define RLF_IO_CLIP_CLIP_H
 
-#include "io/source/address.h"
+#include "io/file.h"
 #include "io/source/address.h"
 #include "relief/backend.h"
 #include "relief/base.h"
 #include "relief/frame.h"
-
-/* What a recording keeps of a frame that its pictures and their times do not tell. */
 
 /* Colour farther in time than this shows something else than the depth (one and a half frames at
  * 30 per second; TUM clips differ by up to 20 ms). */
 #define IO_COLOR_GAP_MAX_NS INT64_C(50000000)
 
 #define IO_FRAME_NOTE_TEXT 128
+
+/* What a recording keeps of a frame that its pictures and their times do not tell. */
 
 /* A frame is as usual when its number is one more than that of the frame before (0 for the first),
  * its flags are those of the whole recording, and its colour is the picture nearest in time. */
@@ -61,17 +61,48 @@ static inline int64_t io_time_sum(int64_t a_ns, int64_t b_ns)
     return (int64_t)((uint64_t)a_ns + (uint64_t)b_ns);
 }
 
-/* Index of the time nearest to time_ns (the earlier of two equally near), or -1 when there is none
- * or the nearest is more than max_gap_ns away. `times` does not decrease. */
-int32_t io_time_nearest(const int64_t *times, int32_t count, int64_t time_ns, int64_t max_gap_ns);
+/* Times that do not decrease: of an array, or the first members of an array's items. */
+typedef struct io_times {
+    const void *first;
+    size_t step; /* bytes from one to the next */
+    int32_t count;
+} io_times;
 
-/* Median interval, nanoseconds; 0 when there are fewer than two times. `scratch` has room for
- * count - 1. */
-int64_t io_time_interval(const int64_t *times, int32_t count, int64_t *scratch);
+static inline int64_t io_time_at(const io_times *times, int32_t index)
+{
+    return *(const int64_t *)(const void *)((const char *)times->first +
+                                            (size_t)index * times->step);
+}
+
+/* Index of the time nearest to time_ns (the earlier of two equally near), or -1 when there is none
+ * or the nearest is more than max_gap_ns away. */
+int32_t io_time_nearest(const io_times *times, int64_t time_ns, int64_t max_gap_ns);
+
+/* Median interval, nanoseconds; 0 when there are fewer than two times. */
+rlf_result io_time_interval(const io_times *times, int64_t *out_ns);
 
 /* How many frames are missing between two of them that are `gap_ns` apart: 0 up to one and a half
  * intervals. */
 int64_t io_time_lost(int64_t gap_ns, int64_t interval_ns);
+
+/* A picture of a recording: when it was taken, and where its bytes are. */
+typedef struct io_shot {
+    int64_t time_ns;
+    int64_t position; /* in the file, or its number where the reader has a list of its own */
+    uint32_t size;    /* bytes */
+} io_shot;
+
+typedef struct io_shots {
+    io_shot *items;
+    int32_t count, room;
+} io_shots;
+
+/* `file` is for the error line of one picture too many. */
+rlf_result io_shots_add(io_shots *shots, const char *file, io_shot shot);
+/* By time, and by place where times are equal. False when they were in order. */
+bool io_shots_sort(io_shots *shots);
+io_times io_shots_times(const io_shots *shots);
+void io_shots_free(io_shots *shots);
 
 #define IO_GRAVITY_MAX 1000.0 /* m/s^2 */
 #define IO_RATE_MAX 1e6       /* frames a second */
@@ -86,15 +117,15 @@ typedef struct io_clip_origin {
     int32_t note_count;
 } io_clip_origin;
 
-/* What a reader knows once its file is open. Arrays are copied. */
+/* What a reader knows once its file is open. What is pointed to is copied. */
 typedef struct io_clip_def {
-    const char *name; /* path, for error lines */
+    const char *name;   /* path, for error lines */
+    const char *device; /* for rlf_source_info; NULL = as the caller fills it in */
     rlf_rig rig;
-    double units_per_metre;                   /* of u16 depth; 0 = depth is float, metres */
-    const int64_t *depth_times, *color_times; /* nanoseconds, not decreasing */
-    int32_t depth_count, color_count;         /* depth_count >= 1; color_count 0 = no colour */
-    const rlf_pose *poses; /* T_world_camera of each depth frame; NULL = none; a quaternion that is
-                              not of unit length = none for that frame */
+    double units_per_metre; /* of u16 depth; 0 = depth is float, metres */
+    io_times depth, color;  /* no colour: none of its times */
+    const rlf_pose *poses;  /* T_world_camera of each depth frame; NULL = none; a quaternion that is
+                               not of unit length = none for that frame */
     int64_t color_gap_max_ns; /* colour farther in time is not paired; 0 = 50 ms */
     uint32_t flags;           /* rlf_frame_flag of every frame */
     io_clip_origin origin;
@@ -110,8 +141,15 @@ typedef struct io_clip_def {
 /* Makes the source's parts. On failure the reader is left to the caller. */
 rlf_result io_clip_open(const io_clip_def *def, rlf_opened *out);
 
-/* Frames per second from the median interval of sorted times; 0 when it cannot be told. */
-rlf_result io_clip_rate(const int64_t *times, int32_t count, double *out_frames_per_second);
+/* How a back end's open ends: what it made is destroyed when it failed. `self` NULL = nothing was
+ * made. */
+static inline rlf_result io_open_end(rlf_result result, void *self, void (*destroy)(void *))
+{
+    if (result != RLF_OK && self != NULL) {
+        destroy(self);
+    }
+    return result;
+}
 
 /* ---- Calibration of recordings that hold none ---- */
 

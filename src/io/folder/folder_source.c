@@ -259,41 +259,27 @@ static rlf_result load_rig(const rlf_address *address, folder *self)
                             : result;
 }
 
-/* New array of a list's times. */
-static int64_t *times_of(const io_frame_list *list)
+static io_times times_of(const io_frame_list *list)
 {
-    int64_t *times = rlf_alloc_array((size_t)list->count, sizeof(times[0]));
-    for (int32_t i = 0; times != NULL && i < list->count; i++) {
-        times[i] = list->entries[i].time_ns;
-    }
-    return times;
+    return (io_times){list->entries, sizeof(list->entries[0]), list->count};
 }
 
 static rlf_result open_clip(folder *self, rlf_opened *out)
 {
-    int64_t *depth_times = times_of(&self->layout.depth);
-    int64_t *color_times = times_of(&self->layout.color);
-    rlf_result result = RLF_ERROR_MEMORY;
-    if (depth_times != NULL && color_times != NULL) {
-        const io_clip_def def = {.name = self->path,
-                                 .rig = self->rig,
-                                 .units_per_metre = self->units_per_metre,
-                                 .depth_times = depth_times,
-                                 .color_times = color_times,
-                                 .depth_count = self->layout.depth.count,
-                                 .color_count = self->layout.color.count,
-                                 .poses = self->layout.poses,
-                                 .flags = self->flags,
-                                 .origin = self->origin,
-                                 .read_depth = read_depth,
-                                 .read_color = read_color,
-                                 .destroy = folder_destroy,
-                                 .self = self};
-        result = io_clip_open(&def, out);
-    }
-    rlf_free(depth_times);
-    rlf_free(color_times);
-    return result;
+    const io_clip_def def = {.name = self->path,
+                             .device = self->layout.description,
+                             .rig = self->rig,
+                             .units_per_metre = self->units_per_metre,
+                             .depth = times_of(&self->layout.depth),
+                             .color = times_of(&self->layout.color),
+                             .poses = self->layout.poses,
+                             .flags = self->flags,
+                             .origin = self->origin,
+                             .read_depth = read_depth,
+                             .read_color = read_color,
+                             .destroy = folder_destroy,
+                             .self = self};
+    return io_clip_open(&def, out);
 }
 
 static rlf_result open_all(const rlf_address *address, folder *self, rlf_opened *out)
@@ -352,13 +338,7 @@ static rlf_result folder_open(const rlf_address *address, rlf_opened *out)
     }
     memcpy(self->path, path, strlen(path) + 1);
     self->reading = io_reading_begin_folder(path);
-    result = open_all(address, self, out);
-    if (result != RLF_OK) {
-        folder_destroy(self);
-        return result;
-    }
-    snprintf(out->info.device, sizeof(out->info.device), "%s", self->layout.description);
-    return RLF_OK;
+    return io_open_end(open_all(address, self, out), self, folder_destroy);
 }
 
 /* Any folder: what is missing in it is told when it is opened. */

@@ -240,8 +240,9 @@ bool io_pose_matrix(const io_bytes *file, rlf_pose *out)
 void io_pose_list_match(const io_pose_list *list, const int64_t *times, int32_t count,
                         int64_t gap_ns, rlf_pose *out)
 {
+    const io_times known = {list->times, sizeof(list->times[0]), list->count};
     for (int32_t i = 0; i < count; i++) {
-        const int32_t nearest = io_time_nearest(list->times, list->count, times[i], gap_ns);
+        const int32_t nearest = io_time_nearest(&known, times[i], gap_ns);
         out[i] = nearest >= 0 ? list->poses[nearest] : (rlf_pose){0};
     }
 }

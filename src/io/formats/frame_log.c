@@ -34,7 +34,7 @@ void io_log_free(void *context)
     io_log *log = context;
     io_file_close(&log->file);
     rlf_free(log->frames);
-    rlf_free(log->colored);
+    io_shots_free(&log->color);
     io_buffer_free(&log->buffer);
     rlf_free(log);
 }
@@ -44,29 +44,6 @@ bool io_log_read(const io_log *log, int64_t position, void *out, size_t size)
     return io_file_read_at(&log->file, position, out, size) == size;
 }
 
-static rlf_result grow(io_log *log)
-{
-    if (log->count < log->capacity) {
-        return RLF_OK;
-    }
-    if (log->count >= FRAMES_MAX) {
-        return rlf_fail(RLF_ERROR_CAPACITY, "%s: holds more than %d frames: cut it", log->file.path,
-                        FRAMES_MAX);
-    }
-    const int32_t capacity = log->capacity < 64 ? 64 : log->capacity * 2;
-    io_log_frame *frames = rlf_alloc_array((size_t)capacity, sizeof(frames[0]));
-    if (frames == NULL) {
-        return RLF_ERROR_MEMORY;
-    }
-    if (log->count > 0) {
-        memcpy(frames, log->frames, (size_t)log->count * sizeof(frames[0]));
-    }
-    rlf_free(log->frames);
-    log->frames = frames;
-    log->capacity = capacity;
-    return RLF_OK;
-}
-
 rlf_result io_log_add(io_log *log, const io_log_frame *frame, int64_t position, bool is_color_first,
                       int64_t *out_end)
 {
@@ -74,26 +51,21 @@ rlf_result io_log_add(io_log *log, const io_log_frame *frame, int64_t position, 
     if (size > log->file.size - position) {
         return RLF_END;
     }
-    rlf_result result = grow(log);
+    if (log->count >= FRAMES_MAX) {
+        return rlf_fail(RLF_ERROR_CAPACITY, "%s: holds more than %d frames: cut it", log->file.path,
+                        FRAMES_MAX);
+    }
+    rlf_result result = io_list_grow((void **)(void *)&log->frames, log->count, 1, &log->room,
+                                     sizeof(log->frames[0]));
     if (result == RLF_OK) {
         io_log_frame *f = &log->frames[log->count++];
         *f = *frame;
         /* No clock shows such a time, and differences of two of them would not fit. */
-        f->ticks = f->ticks >= 0 && f->ticks < INT64_MAX / 4 ? f->ticks : 0;
+        f->time_ns = f->time_ns >= 0 && f->time_ns < INT64_MAX / 4 ? f->time_ns : 0;
         f->depth_position = position + (is_color_first ? frame->color_size : 0);
         f->color_position = position + (is_color_first ? 0 : frame->depth_size);
         *out_end = position + size;
     }
-    return result;
-}
-
-static rlf_result read_bytes(io_log *log, int64_t position, uint32_t size, io_bytes *out)
-{
-    rlf_result result = io_buffer_reserve(&log->buffer, size);
-    if (result == RLF_OK && !io_log_read(log, position, log->buffer.data, size)) {
-        return rlf_fail(RLF_ERROR_IO, "%s: cannot be read: check the disk", log->file.path);
-    }
-    *out = (io_bytes){log->file.path, log->buffer.data, size};
     return result;
 }
 
@@ -108,7 +80,8 @@ static rlf_result read_depth(void *context, int32_t index, void *out)
                    ? RLF_OK
                    : rlf_fail(RLF_ERROR_IO, "%s: cannot be read: check the disk", log->file.path);
     }
-    rlf_result result = read_bytes(log, f->depth_position, f->depth_size, &bytes);
+    rlf_result result =
+        io_file_read_bytes(&log->file, f->depth_position, f->depth_size, &log->buffer, &bytes);
     return result == RLF_OK ? io_inflate(&bytes, out, size) : result;
 }
 
@@ -146,9 +119,10 @@ static rlf_result decode_color(const io_bytes *bytes, const rlf_image_rgba8 *out
 static rlf_result read_color(void *context, int32_t index, const rlf_image_rgba8 *out)
 {
     io_log *log = context;
-    const io_log_frame *f = &log->frames[log->colored[index]];
+    const io_shot *shot = &log->color.items[index];
     io_bytes bytes;
-    rlf_result result = read_bytes(log, f->color_position, f->color_size, &bytes);
+    rlf_result result =
+        io_file_read_bytes(&log->file, shot->position, shot->size, &log->buffer, &bytes);
     if (result == RLF_OK) {
         result = decode_color(&bytes, out);
     }
@@ -162,8 +136,8 @@ static int compare_frames(const void *a, const void *b)
 {
     const io_log_frame *x = a;
     const io_log_frame *y = b;
-    if (x->ticks != y->ticks) {
-        return x->ticks < y->ticks ? -1 : 1;
+    if (x->time_ns != y->time_ns) {
+        return x->time_ns < y->time_ns ? -1 : 1;
     }
     return (x->depth_position > y->depth_position) - (x->depth_position < y->depth_position);
 }
@@ -181,89 +155,69 @@ static int64_t ns_per_tick(int64_t interval)
     return 0;
 }
 
-static void set_times(io_log *log, int64_t *ticks, int64_t *scratch)
+static rlf_result set_times(io_log *log)
 {
+    io_log_frame *f = log->frames;
     for (int32_t i = 1; i < log->count; i++) {
-        if (log->frames[i].ticks < log->frames[i - 1].ticks) {
+        if (f[i].time_ns < f[i - 1].time_ns) {
             rlf_log(RLF_LOG_WARNING,
-                    "%s: frame %d: the time goes back: the frames are sorted by "
-                    "time",
+                    "%s: frame %d: the time goes back: the frames are sorted by time",
                     log->file.path, (int)i);
-            qsort(log->frames, (size_t)log->count, sizeof(log->frames[0]), compare_frames);
+            qsort(f, (size_t)log->count, sizeof(f[0]), compare_frames);
             break;
         }
     }
-    for (int32_t i = 0; i < log->count; i++) {
-        ticks[i] = log->frames[i].ticks;
-    }
     /* Counted from the first, so that no product overflows. */
-    const uint64_t span = log->count > 0 ? (uint64_t)ticks[log->count - 1] - (uint64_t)ticks[0] : 0;
-    const bool is_near = span < INT64_MAX / 4;
-    const int64_t unit = is_near ? ns_per_tick(io_time_interval(ticks, log->count, scratch)) : 0;
-    const bool is_timed = unit > 0 && (int64_t)span < INT64_MAX / 4 / unit;
+    const int64_t first = log->count > 0 ? f[0].time_ns : 0;
+    const int64_t span = log->count > 0 ? f[log->count - 1].time_ns - first : 0;
+    const io_times times = {f, sizeof(f[0]), log->count};
+    int64_t interval = 0;
+    rlf_result result = io_time_interval(&times, &interval);
+    const int64_t unit = ns_per_tick(interval);
+    const bool is_timed = unit > 0 && span < INT64_MAX / 4 / unit;
     if (!is_timed && log->count > 1) {
         rlf_log(RLF_LOG_WARNING,
-                "%s: its times are none of a camera: %d frames per second are "
-                "taken",
+                "%s: its times are none of a camera: %d frames per second are taken",
                 log->file.path, RATE_DEFAULT);
     }
     for (int32_t i = 0; i < log->count; i++) {
-        log->frames[i].time_ns =
-            is_timed ? (ticks[i] - ticks[0]) * unit : (int64_t)i * NS_PER_S / RATE_DEFAULT;
+        f[i].time_ns =
+            is_timed ? (f[i].time_ns - first) * unit : (int64_t)i * NS_PER_S / RATE_DEFAULT;
     }
+    return result;
 }
 
-/* Arrays that the clip copies. */
-typedef struct lists {
-    int64_t *times, *color_times;
-    rlf_pose *poses;
-} lists;
-
-static void fill_lists(io_log *log, lists *out)
+/* Colour has the times of its depth; poses go where the clip copies them. */
+static rlf_result list_frames(io_log *log, rlf_pose *poses)
 {
-    set_times(log, out->times, out->color_times);
-    log->colored_count = 0;
-    for (int32_t i = 0; i < log->count; i++) {
+    rlf_result result = poses != NULL ? set_times(log) : RLF_ERROR_MEMORY;
+    for (int32_t i = 0; i < log->count && result == RLF_OK; i++) {
         const io_log_frame *f = &log->frames[i];
-        out->times[i] = f->time_ns;
-        out->poses[i] = f->pose;
-        if (f->color_size > 0) {
-            out->color_times[log->colored_count] = f->time_ns;
-            log->colored[log->colored_count++] = i;
-        }
+        const io_shot color = {f->time_ns, f->color_position, f->color_size};
+        poses[i] = f->pose;
+        result = f->color_size > 0 ? io_shots_add(&log->color, log->file.path, color) : RLF_OK;
     }
+    return result;
 }
 
-static rlf_result make_clip(io_log *log, const lists *l, rlf_opened *out)
+rlf_result io_log_to_clip(io_log *log, const char *device, rlf_opened *out)
 {
-    const io_clip_def def = {.name = log->file.path,
-                             .rig = log->rig,
-                             .units_per_metre = log->units_per_metre,
-                             .depth_times = l->times,
-                             .color_times = l->color_times,
-                             .depth_count = log->count,
-                             .color_count = log->colored_count,
-                             .poses = log->has_poses ? l->poses : NULL,
-                             .read_depth = read_depth,
-                             .read_color = read_color,
-                             .destroy = io_log_free,
-                             .self = log};
-    return io_clip_open(&def, out);
-}
-
-rlf_result io_log_to_clip(io_log *log, rlf_opened *out)
-{
-    const size_t count = (size_t)log->count;
-    lists l = {rlf_alloc_array(count, sizeof(int64_t)), rlf_alloc_array(count, sizeof(int64_t)),
-               rlf_alloc_array(count, sizeof(rlf_pose))};
-    log->colored = rlf_alloc_array(count, sizeof(log->colored[0]));
-    rlf_result result = RLF_ERROR_MEMORY;
-    if (l.times != NULL && l.color_times != NULL && l.poses != NULL && log->colored != NULL) {
-        fill_lists(log, &l);
-        result = make_clip(log, &l, out);
+    rlf_pose *poses = rlf_alloc_array((size_t)log->count, sizeof(poses[0]));
+    rlf_result result = list_frames(log, poses);
+    if (result == RLF_OK) {
+        const io_clip_def def = {.name = log->file.path,
+                                 .device = device,
+                                 .rig = log->rig,
+                                 .units_per_metre = log->units_per_metre,
+                                 .depth = {log->frames, sizeof(log->frames[0]), log->count},
+                                 .color = io_shots_times(&log->color),
+                                 .poses = log->has_poses ? poses : NULL,
+                                 .read_depth = read_depth,
+                                 .read_color = read_color,
+                                 .destroy = io_log_free,
+                                 .self = log};
+        result = io_clip_open(&def, out);
     }
-    rlf_free(l.times);
-    rlf_free(l.color_times);
-    rlf_free(l.poses);
+    rlf_free(poses);
     return result;
 }

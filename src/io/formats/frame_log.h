@@ -4,10 +4,10 @@
 #define RLF_IO_FORMATS_FRAME_LOG_H
 
 #include "relief/backend.h"
-#include "io/file.h"
+#include "io/clip/clip.h"
 
 typedef struct io_log_frame {
-    int64_t ticks, time_ns; /* as in the file, and what they mean */
+    int64_t time_ns; /* as in the file; what that means when the clip is made */
     int64_t depth_position, color_position;
     uint32_t depth_size, color_size; /* bytes; colour 0 = none */
     rlf_pose pose;                   /* T_world_camera; no unit quaternion = none */
@@ -16,9 +16,8 @@ typedef struct io_log_frame {
 typedef struct io_log {
     io_file file;
     io_log_frame *frames;
-    int32_t count, capacity;
-    int32_t *colored; /* frames that have colour */
-    int32_t colored_count;
+    int32_t count, room;
+    io_shots color;
     rlf_rig rig;
     double units_per_metre;
     bool has_poses, is_bgr;
@@ -39,6 +38,6 @@ rlf_result io_log_add(io_log *log, const io_log_frame *frame, int64_t position, 
 
 /* Makes the clip. Depth is raw or packed with zlib, colour is JPEG, PNG or raw RGB: told apart by
  * sizes and first bytes. On failure the log stays the caller's. */
-rlf_result io_log_to_clip(io_log *log, rlf_opened *out);
+rlf_result io_log_to_clip(io_log *log, const char *device, rlf_opened *out);
 
 #endif

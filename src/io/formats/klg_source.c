@@ -39,7 +39,7 @@ static rlf_result read_frames(io_log *log)
     while (result == RLF_OK && (promised == 0 || log->count < promised) &&
            io_log_read(log, position, header, sizeof(header))) {
         cursor c = {header, sizeof(header), false};
-        io_log_frame frame = {.ticks = (int64_t)cursor_u64(&c)};
+        io_log_frame frame = {.time_ns = (int64_t)cursor_u64(&c)};
         frame.depth_size = cursor_u32(&c);
         frame.color_size = cursor_u32(&c);
         if (frame.depth_size == 0 || frame.depth_size > INT32_MAX || frame.color_size > INT32_MAX) {
@@ -96,14 +96,9 @@ static rlf_result klg_open(const rlf_address *address, rlf_opened *out)
         result = read_rig(address, log);
     }
     if (result == RLF_OK) {
-        result = io_log_to_clip(log, out);
+        result = io_log_to_clip(log, ".klg log", out);
     }
-    if (result != RLF_OK) {
-        io_log_free(log);
-        return result;
-    }
-    snprintf(out->info.device, sizeof(out->info.device), ".klg log");
-    return RLF_OK;
+    return io_open_end(result, log, io_log_free);
 }
 
 const rlf_backend io_backend_klg = {

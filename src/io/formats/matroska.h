@@ -2,7 +2,7 @@
 #ifndef RLF_IO_FORMATS_MATROSKA_H
 #define RLF_IO_FORMATS_MATROSKA_H
 
-#include "io/file.h"
+#include "io/clip/clip.h"
 #include "relief/base.h"
 #include "relief/frame.h"
 
@@ -26,7 +26,7 @@ int32_t ebml_number(const uint8_t *data, size_t size, uint64_t *out, bool *out_i
 /* Unsigned integer of `size` bytes, most significant first. */
 uint64_t ebml_unsigned(const uint8_t *data, size_t size);
 
-/* ---- Matroska: tracks, tags, one attached file, and where each picture is ---- */
+/* ---- Matroska: tracks with their pictures, tags, one attached file ---- */
 
 #define MKV_TRACKS_MAX 16
 #define MKV_TAGS_MAX 64
@@ -37,19 +37,12 @@ typedef struct mkv_track {
     char codec[32]; /* "V_MJPEG", "V_MS/VFW/FOURCC", "V_UNCOMPRESSED" */
     char fourcc[5]; /* of the latter two */
     int64_t width, height;
+    io_shots pictures; /* as they come */
 } mkv_track;
 
 typedef struct mkv_tag {
     char name[40], value[64];
 } mkv_tag;
-
-/* A block: one picture of a track. */
-typedef struct mkv_block {
-    int64_t time_ns;
-    int64_t position; /* of its bytes in the file */
-    uint32_t size;
-    int32_t track; /* index */
-} mkv_block;
 
 typedef struct mkv_file {
     io_file file;
@@ -59,8 +52,6 @@ typedef struct mkv_file {
     int32_t tag_count;
     char attached_name[64]; /* of the attached JSON file; "" = none */
     int64_t attached_position, attached_size;
-    mkv_block *blocks; /* as they come */
-    int32_t block_count, block_capacity;
 } mkv_file;
 
 /* Looks through the whole file once, over the pictures. What follows a damaged place is left out,
@@ -70,10 +61,6 @@ void mkv_file_close(mkv_file *self);
 
 /* Value of a tag; NULL when there is none. */
 const char *mkv_file_tag(const mkv_file *self, const char *name);
-
-/* Reads bytes of the file; the name of *out is the path. */
-rlf_result mkv_file_read(const mkv_file *self, int64_t position, int64_t size, io_buffer *buffer,
-                         io_bytes *out);
 
 /* The calibration that an Azure Kinect or a Femto camera holds, as k4arecorder attaches it. */
 

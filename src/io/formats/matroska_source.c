@@ -11,11 +11,8 @@
 #include <string.h>
 
 typedef struct stream {
-    int32_t track;        /* -1 = none */
+    mkv_track *track;     /* NULL = none */
     const char *encoding; /* NULL = JPEG */
-    mkv_block *blocks;    /* sorted by time */
-    int64_t *times;
-    int32_t count;
 } stream;
 
 typedef struct matroska {
@@ -32,13 +29,13 @@ static const rlf_depth_noise k4a_noise = {0.0005, 0.0, 0.0003};
 
 static rlf_result read_block(matroska *self, const stream *s, int32_t index, io_bytes *out)
 {
-    const mkv_block *block = &s->blocks[index];
-    return mkv_file_read(&self->file, block->position, block->size, &self->buffer, out);
+    const io_shot *shot = &s->track->pictures.items[index];
+    return io_file_read_bytes(&self->file.file, shot->position, shot->size, &self->buffer, out);
 }
 
 static io_pixels pixels_of(const matroska *self, const stream *s, const io_bytes *bytes)
 {
-    const mkv_track *track = &self->file.tracks[s->track];
+    const mkv_track *track = s->track;
     const bool is_yuv = s->encoding != NULL && strcmp(s->encoding, "yuv422_yuy2") == 0;
     const int64_t size = s == &self->depth || is_yuv         ? 2
                          : strcmp(s->encoding, "bgra8") == 0 ? 4
@@ -88,10 +85,6 @@ static void matroska_destroy(void *context)
 {
     matroska *self = context;
     mkv_file_close(&self->file);
-    rlf_free(self->depth.blocks);
-    rlf_free(self->depth.times);
-    rlf_free(self->color.blocks);
-    rlf_free(self->color.times);
     io_buffer_free(&self->buffer);
     rlf_free(self);
 }
@@ -121,58 +114,21 @@ static bool is_color(const mkv_track *t, const char **out_encoding)
 
 static rlf_result find_tracks(matroska *self)
 {
-    self->depth.track = self->color.track = -1;
     self->depth.encoding = "16UC1";
     for (int32_t i = self->file.track_count - 1; i >= 0; i--) {
-        const mkv_track *t = &self->file.tracks[i];
+        mkv_track *t = &self->file.tracks[i];
         const char *encoding = NULL;
         if (is_depth(t)) {
-            self->depth.track = i;
+            self->depth.track = t;
         } else if (is_color(t, &encoding)) {
-            self->color.track = i;
+            self->color.track = t;
             self->color.encoding = encoding;
         }
     }
-    if (self->depth.track < 0) {
+    if (self->depth.track == NULL) {
         return rlf_fail(RLF_ERROR_FORMAT,
                         "%s: has no depth track (16-bit grey b16g): record with a depth mode",
                         self->file.file.path);
-    }
-    return RLF_OK;
-}
-
-static int compare_blocks(const void *a, const void *b)
-{
-    const mkv_block *x = a;
-    const mkv_block *y = b;
-    if (x->time_ns != y->time_ns) {
-        return x->time_ns < y->time_ns ? -1 : 1;
-    }
-    return (x->position > y->position) - (x->position < y->position);
-}
-
-static rlf_result list_blocks(matroska *self, int64_t start_ns, stream *s)
-{
-    const mkv_file *f = &self->file;
-    for (int32_t i = 0; i < f->block_count; i++) {
-        s->count += f->blocks[i].track == s->track ? 1 : 0;
-    }
-    s->blocks = rlf_alloc_array((size_t)s->count, sizeof(s->blocks[0]));
-    s->times = rlf_alloc_array((size_t)s->count, sizeof(s->times[0]));
-    if (s->blocks == NULL || s->times == NULL) {
-        return RLF_ERROR_MEMORY;
-    }
-    int32_t count = 0;
-    for (int32_t i = 0; i < f->block_count; i++) {
-        if (f->blocks[i].track == s->track) {
-            s->blocks[count++] = f->blocks[i];
-        }
-    }
-    if (count > 0) {
-        qsort(s->blocks, (size_t)count, sizeof(s->blocks[0]), compare_blocks);
-    }
-    for (int32_t i = 0; i < count; i++) {
-        s->times[i] = s->blocks[i].time_ns + start_ns;
     }
     return RLF_OK;
 }
@@ -196,10 +152,10 @@ static rlf_result read_attached(matroska *self)
     mkv_file *f = &self->file;
     self->rig = rlf_rig_default();
     self->rig.noise = k4a_noise;
-    self->rig.has_color = self->color.track >= 0;
-    set_size(&f->tracks[self->depth.track], &self->rig.depth);
+    self->rig.has_color = self->color.track != NULL;
+    set_size(self->depth.track, &self->rig.depth);
     if (self->rig.has_color) {
-        set_size(&f->tracks[self->color.track], &self->rig.color);
+        set_size(self->color.track, &self->rig.color);
     }
     if (f->attached_name[0] == '\0') {
         return rlf_fail(RLF_ERROR_FORMAT,
@@ -214,8 +170,8 @@ static rlf_result read_attached(matroska *self)
                         f->file.path, (long long)f->attached_size);
     }
     io_bytes bytes;
-    rlf_result result =
-        mkv_file_read(f, f->attached_position, f->attached_size, &self->buffer, &bytes);
+    rlf_result result = io_file_read_bytes(&f->file, f->attached_position, (size_t)f->attached_size,
+                                           &self->buffer, &bytes);
     return result == RLF_OK ? k4a_calibration_read(&bytes, &self->rig) : result;
 }
 
@@ -231,7 +187,7 @@ static rlf_result read_rig(const rlf_address *address, matroska *self)
         }
     }
     rlf_result result = is_found ? RLF_OK : read_attached(self);
-    const mkv_track *depth = &self->file.tracks[self->depth.track];
+    const mkv_track *depth = self->depth.track;
     if (result == RLF_OK &&
         (self->rig.depth.width != depth->width || self->rig.depth.height != depth->height)) {
         return rlf_fail(RLF_ERROR_FORMAT,
@@ -240,27 +196,37 @@ static rlf_result read_rig(const rlf_address *address, matroska *self)
                         self->file.file.path, (long long)depth->width, (long long)depth->height,
                         (int)self->rig.depth.width, (int)self->rig.depth.height);
     }
-    self->rig.has_color = self->rig.has_color && self->color.track >= 0;
+    self->rig.has_color = self->rig.has_color && self->color.track != NULL;
     return result;
+}
+
+/* Tracks count from the device's start. */
+static io_times times_of(mkv_track *track, int64_t start_ns)
+{
+    for (int32_t i = 0; track != NULL && i < track->pictures.count; i++) {
+        track->pictures.items[i].time_ns += start_ns;
+    }
+    if (track != NULL) {
+        (void)io_shots_sort(&track->pictures);
+    }
+    return track != NULL ? io_shots_times(&track->pictures) : (io_times){.count = 0};
 }
 
 static rlf_result open_clip(const rlf_address *address, matroska *self, rlf_opened *out)
 {
     const int64_t start_ns = start_of(&self->file);
-    rlf_result result = list_blocks(self, start_ns, &self->depth);
-    if (result == RLF_OK) {
-        result = list_blocks(self, start_ns, &self->color);
-    }
-    if (result != RLF_OK) {
-        return result;
-    }
+    const char *mode = mkv_file_tag(&self->file, "K4A_DEPTH_MODE");
+    const char *serial = mkv_file_tag(&self->file, "K4A_DEVICE_SERIAL_NUMBER");
+    char device[256];
+    snprintf(device, sizeof(device), "Azure Kinect recording%s%s%s%s", mode != NULL ? ", " : "",
+             mode != NULL ? mode : "", serial != NULL ? ", serial number " : "",
+             serial != NULL ? serial : "");
     const io_clip_def def = {.name = address->place,
+                             .device = device,
                              .rig = self->rig,
                              .units_per_metre = self->units_per_metre,
-                             .depth_times = self->depth.times,
-                             .color_times = self->color.times,
-                             .depth_count = self->depth.count,
-                             .color_count = self->color.count,
+                             .depth = times_of(self->depth.track, start_ns),
+                             .color = times_of(self->color.track, start_ns),
                              .read_depth = read_depth,
                              .read_color = read_color,
                              .destroy = matroska_destroy,
@@ -268,12 +234,8 @@ static rlf_result open_clip(const rlf_address *address, matroska *self, rlf_open
     return io_clip_open(&def, out);
 }
 
-static rlf_result matroska_open(const rlf_address *address, rlf_opened *out)
+static rlf_result open_all(const rlf_address *address, matroska *self, rlf_opened *out)
 {
-    matroska *self = rlf_alloc(sizeof(*self));
-    if (self == NULL) {
-        return RLF_ERROR_MEMORY;
-    }
     rlf_result result = mkv_file_open(address->place, &self->file);
     if (result == RLF_OK) {
         result = find_tracks(self);
@@ -281,19 +243,14 @@ static rlf_result matroska_open(const rlf_address *address, rlf_opened *out)
     if (result == RLF_OK) {
         result = read_rig(address, self);
     }
-    if (result == RLF_OK) {
-        result = open_clip(address, self, out);
-    }
-    if (result != RLF_OK) {
-        matroska_destroy(self);
-        return result;
-    }
-    const char *mode = mkv_file_tag(&self->file, "K4A_DEPTH_MODE");
-    const char *serial = mkv_file_tag(&self->file, "K4A_DEVICE_SERIAL_NUMBER");
-    snprintf(out->info.device, sizeof(out->info.device), "Azure Kinect recording%s%s%s%s",
-             mode != NULL ? ", " : "", mode != NULL ? mode : "",
-             serial != NULL ? ", serial number " : "", serial != NULL ? serial : "");
-    return RLF_OK;
+    return result == RLF_OK ? open_clip(address, self, out) : result;
+}
+
+static rlf_result matroska_open(const rlf_address *address, rlf_opened *out)
+{
+    matroska *self = rlf_alloc(sizeof(*self));
+    return io_open_end(self != NULL ? open_all(address, self, out) : RLF_ERROR_MEMORY, self,
+                       matroska_destroy);
 }
 
 const rlf_backend io_backend_matroska = {

@@ -3,7 +3,6 @@
 
 #include <string.h>
 
-#define BLOCKS_MAX (8 << 20)
 #define SMALL_MAX 256 /* bytes of an element that is read whole */
 
 /* Ids are unique at all levels, so one walk that goes into the elements that hold others sees each
@@ -160,29 +159,6 @@ static void take_small(walk *w, uint32_t id, const uint8_t *data, size_t size)
     }
 }
 
-static rlf_result grow(mkv_file *f)
-{
-    if (f->block_count < f->block_capacity) {
-        return RLF_OK;
-    }
-    if (f->block_count >= BLOCKS_MAX) {
-        return rlf_fail(RLF_ERROR_CAPACITY, "%s: holds more than %d pictures: cut it", f->file.path,
-                        BLOCKS_MAX);
-    }
-    const int32_t capacity = f->block_capacity < 64 ? 64 : f->block_capacity * 2;
-    mkv_block *blocks = rlf_alloc_array((size_t)capacity, sizeof(blocks[0]));
-    if (blocks == NULL) {
-        return RLF_ERROR_MEMORY;
-    }
-    if (f->block_count > 0) {
-        memcpy(blocks, f->blocks, (size_t)f->block_count * sizeof(blocks[0]));
-    }
-    rlf_free(f->blocks);
-    f->blocks = blocks;
-    f->block_capacity = capacity;
-    return RLF_OK;
-}
-
 /* Track number, two bytes of time since the cluster's, flags; then the picture. */
 static rlf_result add_block(walk *w, int64_t position, int64_t size)
 {
@@ -203,12 +179,9 @@ static rlf_result add_block(walk *w, int64_t position, int64_t size)
     }
     for (int32_t i = 0; i < f->track_count; i++) {
         if (f->tracks[i].number == number && f->tracks[i].codec[0] == 'V') {
-            rlf_result result = grow(f);
-            if (result == RLF_OK) {
-                f->blocks[f->block_count++] = (mkv_block){
-                    ticks * w->scale_ns, position + length + 3, (uint32_t)(size - length - 3), i};
-            }
-            return result;
+            const io_shot shot = {ticks * w->scale_ns, position + length + 3,
+                                  (uint32_t)(size - length - 3)};
+            return io_shots_add(&f->tracks[i].pictures, f->file.path, shot);
         }
     }
     return RLF_OK;
@@ -292,8 +265,9 @@ rlf_result mkv_file_open(const char *path, mkv_file *out)
 void mkv_file_close(mkv_file *self)
 {
     io_file_close(&self->file);
-    rlf_free(self->blocks);
-    self->blocks = NULL;
+    for (int32_t i = 0; i < self->track_count; i++) {
+        io_shots_free(&self->tracks[i].pictures);
+    }
 }
 
 const char *mkv_file_tag(const mkv_file *self, const char *name)
@@ -304,18 +278,4 @@ const char *mkv_file_tag(const mkv_file *self, const char *name)
         }
     }
     return NULL;
-}
-
-rlf_result mkv_file_read(const mkv_file *self, int64_t position, int64_t size, io_buffer *buffer,
-                         io_bytes *out)
-{
-    rlf_result result = io_buffer_reserve(buffer, (size_t)size);
-    if (result != RLF_OK) {
-        return result;
-    }
-    if (io_file_read_at(&self->file, position, buffer->data, (size_t)size) != (size_t)size) {
-        return rlf_fail(RLF_ERROR_IO, "%s: cannot be read: check the disk", self->file.path);
-    }
-    *out = (io_bytes){self->file.path, buffer->data, (size_t)size};
-    return RLF_OK;
 }

@@ -2,7 +2,7 @@
 #ifndef RLF_IO_FORMATS_ONI_H
 #define RLF_IO_FORMATS_ONI_H
 
-#include "io/file.h"
+#include "io/clip/clip.h"
 #include "relief/base.h"
 
 /* ---- What an .oni file holds and where: its records are walked over once ---- */
@@ -14,12 +14,6 @@
 #define ONI_CODEC_16Z ONI_CODEC('1', '6', 'z', 'P')
 #define ONI_CODEC_16Z_TABLE ONI_CODEC('1', '6', 'z', 'T')
 
-typedef struct oni_picture {
-    int64_t time_ns;
-    int64_t offset; /* of the packed picture in the file */
-    uint32_t size;  /* bytes */
-} oni_picture;
-
 /* A stream of the file. */
 typedef struct oni_node {
     bool is_there;
@@ -30,8 +24,7 @@ typedef struct oni_node {
     int32_t rgb_format;   /* OpenNI 1's number: 1 = RGB; 0 = not told */
     double fov_x, fov_y;  /* radians; 0 = not told */
     bool is_mirrored, is_registered;
-    oni_picture *pictures; /* in the order of time */
-    int32_t count, capacity;
+    io_shots pictures; /* in the order of time */
 } oni_node;
 
 typedef struct oni_index {

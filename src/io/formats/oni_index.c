@@ -18,7 +18,6 @@
 #define HEADER_32 24
 #define FIELDS_MAX 1024 /* of the records that matter; longer ones are passed over */
 #define NAME_MAX_SIZE 64
-#define PICTURES_MAX (1 << 24)
 
 enum {
     RECORD_INT = 3,
@@ -120,7 +119,8 @@ static void set_property(oni_node *node, const record *r, fields *f)
     uint64_t number = 0;
     uint32_t mode[3];
     double fov[2];
-    if (node == NULL || node->count > 0 || !take_name(f, name) || !take_numbers(f, &size, 1, 4)) {
+    if (node == NULL || node->pictures.count > 0 || !take_name(f, name) ||
+        !take_numbers(f, &size, 1, 4)) {
         return;
     }
     if (r->type == RECORD_INT) {
@@ -136,28 +136,6 @@ static void set_property(oni_node *node, const record *r, fields *f)
     }
 }
 
-static rlf_result grow(oni_node *node, const char *name)
-{
-    if (node->count < node->capacity) {
-        return RLF_OK;
-    }
-    if (node->count >= PICTURES_MAX) {
-        return rlf_fail(RLF_ERROR_CAPACITY, "%s: holds more than %d pictures", name, PICTURES_MAX);
-    }
-    const int32_t capacity = node->capacity > 0 ? 2 * node->capacity : 256;
-    oni_picture *pictures = rlf_alloc_array((size_t)capacity, sizeof(pictures[0]));
-    if (pictures == NULL) {
-        return RLF_ERROR_MEMORY;
-    }
-    if (node->count > 0) {
-        memcpy(pictures, node->pictures, (size_t)node->count * sizeof(pictures[0]));
-    }
-    rlf_free(node->pictures);
-    node->pictures = pictures;
-    node->capacity = capacity;
-    return RLF_OK;
-}
-
 /* Pictures of time 0 and number 0 are no pictures: some recorders write them first. */
 static rlf_result add_picture(oni_node *node, const char *name, const record *r, fields *f,
                               int64_t offset)
@@ -169,12 +147,8 @@ static rlf_result add_picture(oni_node *node, const char *name, const record *r,
         (time_us == 0 && number == 0)) {
         return RLF_OK;
     }
-    rlf_result result = grow(node, name);
-    if (result == RLF_OK) {
-        node->pictures[node->count++] =
-            (oni_picture){(int64_t)time_us * 1000, offset, r->payload_size};
-    }
-    return result;
+    const io_shot shot = {(int64_t)time_us * 1000, offset, r->payload_size};
+    return io_shots_add(&node->pictures, name, shot);
 }
 
 static rlf_result use_record(oni_index *index, const char *name, const record *r, fields *f,
@@ -232,25 +206,10 @@ static rlf_result read_file_header(const io_file *file, uint32_t *out_header_siz
     return RLF_OK;
 }
 
-static int compare_pictures(const void *a, const void *b)
-{
-    const oni_picture *x = a;
-    const oni_picture *y = b;
-    if (x->time_ns != y->time_ns) {
-        return x->time_ns < y->time_ns ? -1 : 1;
-    }
-    return (x->offset > y->offset) - (x->offset < y->offset);
-}
-
 static void sort_by_time(oni_node *node, const char *name)
 {
-    for (int32_t i = 1; i < node->count; i++) {
-        if (node->pictures[i].time_ns < node->pictures[i - 1].time_ns) {
-            rlf_log(RLF_LOG_WARNING, "%s: the time goes back: the pictures are sorted by time",
-                    name);
-            qsort(node->pictures, (size_t)node->count, sizeof(node->pictures[0]), compare_pictures);
-            return;
-        }
+    if (io_shots_sort(&node->pictures)) {
+        rlf_log(RLF_LOG_WARNING, "%s: the time goes back: the pictures are sorted by time", name);
     }
 }
 
@@ -294,7 +253,7 @@ rlf_result oni_index_read(const io_file *file, oni_index *out)
 
 void oni_index_free(oni_index *index)
 {
-    rlf_free(index->depth.pictures);
-    rlf_free(index->color.pictures);
+    io_shots_free(&index->depth.pictures);
+    io_shots_free(&index->color.pictures);
     memset(index, 0, sizeof(*index));
 }

@@ -30,31 +30,22 @@ typedef struct oni {
     io_buffer buffer; /* of the packed picture */
 } oni;
 
+static rlf_result fail_picture(const oni *o, const oni_node *node, int32_t index, const char *what)
+{
+    return rlf_fail(RLF_ERROR_FORMAT, "%s: the %s picture at byte %lld is damaged", o->file.path,
+                    what, (long long)node->pictures.items[index].position);
+}
+
 /* No picture needs more than three bytes a pixel and a table, however badly it packs. */
 static rlf_result read_packed(oni *o, const oni_node *node, int32_t index, io_bytes *out)
 {
-    const oni_picture *p = &node->pictures[index];
+    const io_shot *p = &node->pictures.items[index];
     const int64_t limit = (int64_t)node->width * node->height * 4 + (1 << 18);
     if ((int64_t)p->size > limit) {
         return rlf_fail(RLF_ERROR_FORMAT, "%s: the picture at byte %lld says that it has %u bytes",
-                        o->file.path, (long long)p->offset, (unsigned)p->size);
+                        o->file.path, (long long)p->position, (unsigned)p->size);
     }
-    rlf_result result = io_buffer_reserve(&o->buffer, p->size);
-    if (result != RLF_OK) {
-        return result;
-    }
-    if (io_file_read_at(&o->file, p->offset, o->buffer.data, p->size) != p->size) {
-        return rlf_fail(RLF_ERROR_IO, "%s: the picture at byte %lld cannot be read", o->file.path,
-                        (long long)p->offset);
-    }
-    *out = (io_bytes){o->file.path, o->buffer.data, p->size};
-    return RLF_OK;
-}
-
-static rlf_result fail_damaged(const oni *o, const oni_node *node, int32_t index, const char *what)
-{
-    return rlf_fail(RLF_ERROR_FORMAT, "%s: the %s picture at byte %lld is damaged", o->file.path,
-                    what, (long long)node->pictures[index].offset);
+    return io_file_read_bytes(&o->file, p->position, p->size, &o->buffer, out);
 }
 
 static void flip_rows_u16(uint16_t *data, int32_t width, int32_t height)
@@ -100,7 +91,7 @@ static rlf_result read_depth(void *self, int32_t index, void *out)
         memcpy(out, packed.data, packed.size);
     }
     if (!is_good) {
-        return fail_damaged(o, node, index, "depth");
+        return fail_picture(o, node, index, "depth");
     }
     if (o->depth_flips) {
         flip_rows_u16(out, node->width, node->height);
@@ -127,7 +118,7 @@ static rlf_result read_color(void *self, int32_t index, const rlf_image_rgba8 *o
             out->data[4 * i + 3] = 255;
         }
     } else {
-        result = fail_damaged(o, node, index, "colour");
+        result = fail_picture(o, node, index, "colour");
     }
     if (result == RLF_OK && o->color_flips) {
         flip_rows_rgba(out);
@@ -149,8 +140,9 @@ static void oni_destroy(void *self)
 static bool has_size(const oni_node *node, int64_t pixels_per_byte)
 {
     int64_t largest = 0;
-    for (int32_t i = 0; i < node->count; i++) {
-        largest = node->pictures[i].size > largest ? node->pictures[i].size : largest;
+    for (int32_t i = 0; i < node->pictures.count; i++) {
+        const io_shot *p = &node->pictures.items[i];
+        largest = p->size > largest ? p->size : largest;
     }
     return node->width >= 1 && node->width <= RLF_IMAGE_SIZE_MAX && node->height >= 1 &&
            node->height <= RLF_IMAGE_SIZE_MAX &&
@@ -160,7 +152,7 @@ static bool has_size(const oni_node *node, int64_t pixels_per_byte)
 static rlf_result check_depth(const oni *o)
 {
     const oni_node *d = &o->index.depth;
-    if (!d->is_there || d->count == 0) {
+    if (!d->is_there || d->pictures.count == 0) {
         return rlf_fail(RLF_ERROR_FORMAT, "%s: holds no depth pictures", o->file.path);
     }
     if (!has_size(d, d->codec == ONI_CODEC_NONE ? 1 : DEPTH_PIXELS_PER_BYTE)) {
@@ -182,8 +174,8 @@ static void check_color(oni *o)
 {
     oni_node *c = &o->index.color;
     const bool is_rgb = c->codec == ONI_CODEC_NONE && (c->rgb_format <= RGB_FORMAT);
-    if (!c->is_there || c->count == 0) {
-        c->count = 0;
+    if (!c->is_there || c->pictures.count == 0) {
+        c->pictures.count = 0;
     } else if (!has_size(c, is_rgb ? 1 : JPEG_PIXELS_PER_BYTE) ||
                (!is_rgb && c->codec != ONI_CODEC_JPEG)) {
         rlf_log(RLF_LOG_WARNING,
@@ -191,7 +183,7 @@ static void check_color(oni *o)
                 "colour",
                 o->file.path, (int)c->width, (int)c->height, (const char *)&c->codec,
                 (int)c->rgb_format);
-        c->count = 0;
+        c->pictures.count = 0;
     }
 }
 
@@ -221,7 +213,7 @@ static rlf_result read_keys(oni *o, const rlf_address *address)
     const bool is_told = rlf_address_get(address, "mirror") != NULL;
     o->depth_flips = is_told ? mirror : o->index.depth.is_mirrored;
     o->color_flips = is_told ? mirror : o->index.color.is_mirrored;
-    o->index.color.count = has_color ? o->index.color.count : 0;
+    o->index.color.pictures.count = has_color ? o->index.color.pictures.count : 0;
     return result;
 }
 
@@ -235,7 +227,7 @@ static void rig_of_file(oni *o)
                      .depth_min_m = DEPTH_MIN_M,
                      .depth_max_m = DEPTH_MAX_M,
                      .noise = structured_light,
-                     .has_color = c->count > 0};
+                     .has_color = c->pictures.count > 0};
     const bool is_told = io_camera_from_fov(d->width, d->height, d->fov_x, d->fov_y, &rig->depth);
     if (rig->has_color &&
         !io_camera_from_fov(c->width, c->height, c->fov_x, c->fov_y, &rig->color)) {
@@ -275,7 +267,7 @@ static rlf_result make_rig(oni *o, const rlf_address *address)
         rig_of_file(o);
         return RLF_OK;
     }
-    o->rig.has_color = o->rig.has_color && o->index.color.count > 0;
+    o->rig.has_color = o->rig.has_color && o->index.color.pictures.count > 0;
     if (!fits(&o->rig.depth, &o->index.depth) ||
         (o->rig.has_color && !fits(&o->rig.color, &o->index.color))) {
         return rlf_fail(RLF_ERROR_INVALID,
@@ -287,42 +279,23 @@ static rlf_result make_rig(oni *o, const rlf_address *address)
     return RLF_OK;
 }
 
-/* New array of a stream's times. */
-static int64_t *times_of(const oni_node *node)
-{
-    int64_t *times = rlf_alloc_array((size_t)node->count, sizeof(times[0]));
-    for (int32_t i = 0; times != NULL && i < node->count; i++) {
-        times[i] = node->pictures[i].time_ns;
-    }
-    return times;
-}
-
 static rlf_result open_clip(oni *o, rlf_opened *out)
 {
     const bool flips = o->depth_flips || (o->rig.has_color && o->color_flips);
-    int64_t *depth_times = times_of(&o->index.depth);
-    int64_t *color_times = times_of(&o->index.color);
-    rlf_result result = RLF_ERROR_MEMORY;
-    if (depth_times != NULL && color_times != NULL) {
-        const io_clip_def def = {
-            .name = o->file.path,
-            .rig = o->rig,
-            .units_per_metre = o->units_per_metre,
-            .depth_times = depth_times,
-            .color_times = color_times,
-            .depth_count = o->index.depth.count,
-            .color_count = o->index.color.count,
-            .flags = (flips ? (uint32_t)RLF_FRAME_UNMIRRORED : 0u) |
-                     (o->is_aligned && o->rig.has_color ? (uint32_t)RLF_FRAME_ALIGNED : 0u),
-            .read_depth = read_depth,
-            .read_color = read_color,
-            .destroy = oni_destroy,
-            .self = o};
-        result = io_clip_open(&def, out);
-    }
-    rlf_free(depth_times);
-    rlf_free(color_times);
-    return result;
+    const io_clip_def def = {
+        .name = o->file.path,
+        .device = "OpenNI recording",
+        .rig = o->rig,
+        .units_per_metre = o->units_per_metre,
+        .depth = io_shots_times(&o->index.depth.pictures),
+        .color = io_shots_times(&o->index.color.pictures),
+        .flags = (flips ? (uint32_t)RLF_FRAME_UNMIRRORED : 0u) |
+                 (o->is_aligned && o->rig.has_color ? (uint32_t)RLF_FRAME_ALIGNED : 0u),
+        .read_depth = read_depth,
+        .read_color = read_color,
+        .destroy = oni_destroy,
+        .self = o};
+    return io_clip_open(&def, out);
 }
 
 static rlf_result open_all(oni *o, const rlf_address *address, rlf_opened *out)
@@ -340,7 +313,7 @@ static rlf_result open_all(oni *o, const rlf_address *address, rlf_opened *out)
     if (o->index.is_cut) {
         rlf_log(RLF_LOG_WARNING,
                 "%s: is cut short or damaged: the %d depth pictures before that place are read",
-                o->file.path, (int)o->index.depth.count);
+                o->file.path, (int)o->index.depth.pictures.count);
     }
     check_color(o);
     result = read_keys(o, address);
@@ -353,16 +326,7 @@ static rlf_result open_all(oni *o, const rlf_address *address, rlf_opened *out)
 static rlf_result oni_open(const rlf_address *address, rlf_opened *out)
 {
     oni *o = rlf_alloc(sizeof(*o));
-    if (o == NULL) {
-        return RLF_ERROR_MEMORY;
-    }
-    rlf_result result = open_all(o, address, out);
-    if (result != RLF_OK) {
-        oni_destroy(o);
-        return result;
-    }
-    snprintf(out->info.device, sizeof(out->info.device), "OpenNI recording");
-    return RLF_OK;
+    return io_open_end(o != NULL ? open_all(o, address, out) : RLF_ERROR_MEMORY, o, oni_destroy);
 }
 
 const rlf_backend io_backend_oni = {

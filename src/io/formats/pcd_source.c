@@ -100,11 +100,10 @@ static rlf_result open_clip(const rlf_address *address, pcd *p, rlf_opened *out)
 {
     static const int64_t time_ns = 0;
     const io_clip_def def = {.name = address->place,
+                             .device = "organised point cloud (PCD)",
                              .rig = p->rig,
-                             .depth_times = &time_ns,
-                             .color_times = &time_ns,
-                             .depth_count = 1,
-                             .color_count = p->points.rgba != NULL ? 1 : 0,
+                             .depth = {&time_ns, sizeof(time_ns), 1},
+                             .color = {&time_ns, sizeof(time_ns), p->points.rgba != NULL ? 1 : 0},
                              .flags = RLF_FRAME_ALIGNED,
                              .read_depth = read_depth,
                              .read_color = read_color,
@@ -113,22 +112,19 @@ static rlf_result open_clip(const rlf_address *address, pcd *p, rlf_opened *out)
     return io_clip_open(&def, out);
 }
 
-static rlf_result pcd_open(const rlf_address *address, rlf_opened *out)
+static rlf_result open_all(const rlf_address *address, pcd *p, rlf_opened *out)
 {
-    pcd *p = rlf_alloc(sizeof(*p));
-    rlf_result result = p != NULL ? read_file(address, p) : RLF_ERROR_MEMORY;
+    rlf_result result = read_file(address, p);
     if (result == RLF_OK) {
         result = set_rig(address, p);
     }
-    if (result == RLF_OK) {
-        result = open_clip(address, p, out);
-    }
-    if (result == RLF_OK) {
-        snprintf(out->info.device, sizeof(out->info.device), "organised point cloud (PCD)");
-    } else if (p != NULL) {
-        destroy(p);
-    }
-    return result;
+    return result == RLF_OK ? open_clip(address, p, out) : result;
+}
+
+static rlf_result pcd_open(const rlf_address *address, rlf_opened *out)
+{
+    pcd *p = rlf_alloc(sizeof(*p));
+    return io_open_end(p != NULL ? open_all(address, p, out) : RLF_ERROR_MEMORY, p, destroy);
 }
 
 const rlf_backend io_backend_pcd = {

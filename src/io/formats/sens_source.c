@@ -152,7 +152,7 @@ static bool parse_frame(const uint8_t *data, io_log_frame *out)
         memset(&out->pose, 0, sizeof(out->pose));
     }
     cursor_u64(&c); /* time of colour: the file pairs the two itself */
-    out->ticks = (int64_t)cursor_u64(&c);
+    out->time_ns = (int64_t)cursor_u64(&c);
     const uint64_t color_size = cursor_u64(&c);
     const uint64_t depth_size = cursor_u64(&c);
     out->color_size = (uint32_t)color_size;
@@ -201,14 +201,9 @@ static rlf_result sens_open(const rlf_address *address, rlf_opened *out)
     }
     if (result == RLF_OK) {
         log->has_poses = true;
-        result = io_log_to_clip(log, out);
+        result = io_log_to_clip(log, "ScanNet .sens", out);
     }
-    if (result != RLF_OK) {
-        io_log_free(log);
-        return result;
-    }
-    snprintf(out->info.device, sizeof(out->info.device), "ScanNet .sens");
-    return RLF_OK;
+    return io_open_end(result, log, io_log_free);
 }
 
 const rlf_backend io_backend_sens = {

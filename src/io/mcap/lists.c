@@ -5,24 +5,11 @@
 
 #include <stdlib.h>
 
-#define LIST_FIRST 64
-
 void *io_mcap_list_add(io_mcap_list *list, size_t size)
 {
-    if (list->count == list->capacity) {
-        const int32_t capacity = list->capacity > 0 ? list->capacity * 2 : LIST_FIRST;
-        void *items = rlf_alloc_array((size_t)capacity, size);
-        if (items == NULL) {
-            return NULL;
-        }
-        if (list->count > 0) {
-            memcpy(items, list->items, (size_t)list->count * size);
-        }
-        rlf_free(list->items);
-        list->items = items;
-        list->capacity = capacity;
-    }
-    return (char *)list->items + (size_t)list->count++ * size;
+    return io_list_grow(&list->items, list->count, 1, &list->capacity, size) == RLF_OK
+               ? (char *)list->items + (size_t)list->count++ * size
+               : NULL;
 }
 
 bool io_mcap_read_at(const io_mcap_reader *reader, uint64_t offset, void *out, size_t size)

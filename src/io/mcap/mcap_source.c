@@ -40,23 +40,24 @@ static void mcap_destroy(void *self)
 
 /* Of each depth picture the pose with its time; a zero quaternion where there is none. NULL when
  * the file has no poses. */
-static rlf_pose *poses_of(mcap *m, const int64_t *times, int32_t count)
+static rlf_pose *poses_of(mcap *m, const io_shots *shots)
 {
     const int32_t index = io_mcap_find_topic(m->reader, IO_ROS_POSE_STAMPED, IO_TOPIC_POSE);
-    rlf_pose *poses = index >= 0 ? rlf_alloc_array((size_t)count, sizeof(poses[0])) : NULL;
+    rlf_pose *poses = index >= 0 ? rlf_alloc_array((size_t)shots->count, sizeof(poses[0])) : NULL;
     if (poses == NULL) {
         return NULL;
     }
     const io_mcap_channel *c = io_mcap_channel_at(m->reader, index);
     int32_t at = 0;
-    for (int32_t i = 0; i < count; i++) {
-        while (at < c->count && io_mcap_message_at(m->reader, c->first + at)->time_ns < times[i]) {
+    for (int32_t i = 0; i < shots->count; i++) {
+        const int64_t time_ns = shots->items[i].time_ns;
+        while (at < c->count && io_mcap_message_at(m->reader, c->first + at)->time_ns < time_ns) {
             at++;
         }
         io_cdr_reader message;
         io_ros_header header;
         const bool is_there = at < c->count &&
-                              io_mcap_message_at(m->reader, c->first + at)->time_ns == times[i] &&
+                              io_mcap_message_at(m->reader, c->first + at)->time_ns == time_ns &&
                               io_mcap_read(m->reader, c->first + at, &message) == RLF_OK &&
                               io_ros_read_pose(message, &header, &poses[i]);
         if (!is_there) {
@@ -82,13 +83,26 @@ static void read_metadata(mcap *m)
 /* ---- opening ----------------------------------------------------------------------------------
  */
 
+/* Which topics were taken, for `relief info`. */
+static void describe(const mcap *m, char *out, size_t size)
+{
+    const char *device = io_mcap_metadata(m->reader, IO_KEY_DEVICE);
+    const io_ros_recording *r = &m->ros;
+    const bool has_color = r->color.channel >= 0;
+    snprintf(out, size, "MCAP: depth %.40s%s%.40s%s%.30s", r->pictures[r->depth.picture].name,
+             has_color ? ", colour " : "", has_color ? r->pictures[r->color.picture].name : "",
+             device != NULL ? "; " : "", device != NULL ? device : "");
+}
+
 static rlf_result open_clip(const rlf_address *address, mcap *m, bool is_own, rlf_opened *out)
 {
-    io_clip_def def = {.destroy = mcap_destroy, .self = m};
+    char device[128];
+    describe(m, device, sizeof(device));
+    io_clip_def def = {.device = device, .destroy = mcap_destroy, .self = m};
     if (is_own) {
         io_mcap_read_origin(m->reader, &def.origin);
     }
-    rlf_pose *poses = poses_of(m, m->ros.depth.times, m->ros.depth.count);
+    rlf_pose *poses = poses_of(m, &m->ros.depth.shots);
     io_frame_note *notes = io_mcap_read_notes(m->reader, &def.origin);
     def.poses = poses;
     rlf_result result = io_ros_open_clip(&m->ros, address, &def, out);
@@ -117,35 +131,17 @@ static rlf_result open_recording(const rlf_address *address, mcap *m, rlf_opened
     return result == RLF_OK ? open_clip(address, m, is_own, out) : result;
 }
 
-/* Which topics were taken, for `relief info`. */
-static void describe(const mcap *m, rlf_opened *out)
+static rlf_result open_all(const rlf_address *address, mcap *m, rlf_opened *out)
 {
-    const char *device = io_mcap_metadata(m->reader, IO_KEY_DEVICE);
-    const io_ros_recording *r = &m->ros;
-    const bool has_color = r->color.channel >= 0;
-    snprintf(out->info.device, sizeof(out->info.device), "MCAP: depth %.40s%s%.40s%s%.30s",
-             r->pictures[r->depth.picture].name, has_color ? ", colour " : "",
-             has_color ? r->pictures[r->color.picture].name : "", device != NULL ? "; " : "",
-             device != NULL ? device : "");
+    snprintf(m->path, sizeof(m->path), "%s", address->place);
+    rlf_result result = io_mcap_reader_open(m->path, &m->reader);
+    return result == RLF_OK ? open_recording(address, m, out) : result;
 }
 
 static rlf_result mcap_open(const rlf_address *address, rlf_opened *out)
 {
     mcap *m = rlf_alloc(sizeof(*m));
-    if (m == NULL) {
-        return RLF_ERROR_MEMORY;
-    }
-    snprintf(m->path, sizeof(m->path), "%s", address->place);
-    rlf_result result = io_mcap_reader_open(m->path, &m->reader);
-    if (result == RLF_OK) {
-        result = open_recording(address, m, out);
-    }
-    if (result != RLF_OK) {
-        mcap_destroy(m);
-        return result;
-    }
-    describe(m, out);
-    return RLF_OK;
+    return io_open_end(m != NULL ? open_all(address, m, out) : RLF_ERROR_MEMORY, m, mcap_destroy);
 }
 
 const rlf_backend io_backend_mcap = {

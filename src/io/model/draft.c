@@ -30,11 +30,11 @@ rlf_result io_model_reserve(io_model_draft *d, int64_t vertices, int64_t triangl
                         "%s: the model has more than %d triangles or %d vertices: simplify it",
                         d->name, RLF_MODEL_TRIANGLES_MAX, RLF_MODEL_VERTICES_MAX);
     }
-    rlf_result result = io_model_grow((void **)(void *)&d->vertices, d->vertex_count, vertices,
-                                      &d->vertex_room, sizeof(d->vertices[0]));
+    rlf_result result = io_list_grow((void **)(void *)&d->vertices, d->vertex_count, vertices,
+                                     &d->vertex_room, sizeof(d->vertices[0]));
     return result == RLF_OK
-               ? io_model_grow((void **)(void *)&d->triangles, d->triangle_count, triangles,
-                               &d->triangle_room, 3 * sizeof(d->triangles[0]))
+               ? io_list_grow((void **)(void *)&d->triangles, d->triangle_count, triangles,
+                              &d->triangle_room, 3 * sizeof(d->triangles[0]))
                : result;
 }
 

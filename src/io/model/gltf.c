@@ -83,8 +83,8 @@ static rlf_result add_primitives(scene *s, const json_t *mesh, const affine *pla
             return rlf_fail(RLF_ERROR_FORMAT, "%s: has more than %d meshes: join some",
                             s->g->draft->name, MESHES_MAX);
         }
-        rlf_result result = io_model_grow((void **)(void *)&s->instances, s->count, 1, &s->room,
-                                          sizeof(s->instances[0]));
+        rlf_result result = io_list_grow((void **)(void *)&s->instances, s->count, 1, &s->room,
+                                         sizeof(s->instances[0]));
         if (result != RLF_OK) {
             return result;
         }

@@ -69,25 +69,6 @@ static rlf_result fail_line(const parser *p, const char *problem)
     return rlf_fail(RLF_ERROR_FORMAT, "%s:%d: %s", p->name, (int)p->line, problem);
 }
 
-rlf_result io_model_grow(void **items, int32_t count, int64_t more, int32_t *room, size_t size)
-{
-    if (count + more <= *room) {
-        return RLF_OK;
-    }
-    const int64_t wanted = count + more > 2 * (int64_t)*room ? count + more : 2 * (int64_t)*room;
-    void *grown = rlf_alloc_array((size_t)wanted, size);
-    if (grown == NULL) {
-        return RLF_ERROR_MEMORY;
-    }
-    if (count > 0) {
-        memcpy(grown, *items, (size_t)count * size);
-    }
-    rlf_free(*items);
-    *items = grown;
-    *room = (int32_t)wanted;
-    return RLF_OK;
-}
-
 /* ---- vertices ------------------------------------------------------------------------------- */
 
 /* `needed` numbers of a line into a list; the others are 0 where they are missing. */
@@ -108,7 +89,7 @@ static rlf_result add_numbers(parser *p, char *line, int needed, rlf_vec3 **list
     if (*count == RLF_MODEL_VERTICES_MAX) {
         return fail_line(p, "the model has more than 600000 vertices: simplify it");
     }
-    rlf_result result = io_model_grow((void **)(void *)list, *count, 1, room, sizeof(**list));
+    rlf_result result = io_list_grow((void **)(void *)list, *count, 1, room, sizeof(**list));
     if (result == RLF_OK) {
         (*list)[(*count)++] = rlf_vec3_make(c[0], c[1], c[2]);
     }
@@ -149,11 +130,11 @@ static rlf_result add_triangle(parser *p, int32_t a, int32_t b, int32_t c)
         return fail_line(p, "the model has more than 200000 triangles: simplify it");
     }
     int32_t room = p->triangle_room;
-    rlf_result result = io_model_grow((void **)(void *)&obj->corners, obj->triangle_count, 1, &room,
-                                      3 * sizeof(obj->corners[0]));
+    rlf_result result = io_list_grow((void **)(void *)&obj->corners, obj->triangle_count, 1, &room,
+                                     3 * sizeof(obj->corners[0]));
     if (result == RLF_OK) {
-        result = io_model_grow((void **)(void *)&obj->materials, obj->triangle_count, 1,
-                               &p->triangle_room, sizeof(obj->materials[0]));
+        result = io_list_grow((void **)(void *)&obj->materials, obj->triangle_count, 1,
+                              &p->triangle_room, sizeof(obj->materials[0]));
     }
     if (result != RLF_OK) {
         return result;

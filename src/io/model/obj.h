@@ -32,7 +32,4 @@ char *io_obj_next_word(char **line);
 /* What is left of a line, without blanks around. */
 char *io_obj_rest(char *line);
 
-/* Room for `more` items in a list that has `count`; the limit is the caller's. */
-rlf_result io_model_grow(void **items, int32_t count, int64_t more, int32_t *room, size_t size);
-
 #endif

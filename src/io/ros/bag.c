@@ -8,27 +8,12 @@
 rlf_result bag_grow(const bag *self, void **array, int32_t count, int32_t *capacity, size_t size,
                     int32_t limit)
 {
-    if (count < *capacity) {
-        return RLF_OK;
-    }
     if (count >= limit) {
         return rlf_fail(RLF_ERROR_CAPACITY,
-                        "%s: holds more than %d records: cut it with rosbag "
-                        "filter",
+                        "%s: holds more than %d records: cut it with rosbag filter",
                         self->file.path, (int)limit);
     }
-    const int32_t wanted = count < 64 ? 64 : (count < limit / 2 ? count * 2 : limit);
-    void *grown = rlf_alloc_array((size_t)wanted, size);
-    if (grown == NULL) {
-        return RLF_ERROR_MEMORY;
-    }
-    if (count > 0) {
-        memcpy(grown, *array, (size_t)count * size);
-    }
-    rlf_free(*array);
-    *array = grown;
-    *capacity = wanted;
-    return RLF_OK;
+    return io_list_grow(array, count, 1, capacity, size);
 }
 
 bag_connection *bag_find_connection(bag *self, uint32_t id)

@@ -7,12 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A picture's number in its topic, and its time. */
-struct io_ros_shot {
-    int64_t time_ns;
-    int32_t index;
-};
-
 /* ---- pictures ------------------------------------------------------------------------------- */
 
 static rlf_result read_depth(void *self, int32_t index, void *out)
@@ -20,7 +14,8 @@ static rlf_result read_depth(void *self, int32_t index, void *out)
     io_ros_recording *r = self;
     const io_ros_stream *s = &r->depth;
     io_ros_image image;
-    rlf_result result = io_ros_read_picture(&r->log, s, s->shots[index].index, &image);
+    rlf_result result =
+        io_ros_read_picture(&r->log, s, (int32_t)s->shots.items[index].position, &image);
     return result == RLF_OK ? io_ros_decode_depth(&r->decoder, &image, s->pixels,
                                                   r->rig.depth.width, r->rig.depth.height, out)
                             : result;
@@ -31,7 +26,8 @@ static rlf_result read_color(void *self, int32_t index, const rlf_image_rgba8 *o
     io_ros_recording *r = self;
     const io_ros_stream *s = &r->color;
     io_ros_image image;
-    rlf_result result = io_ros_read_picture(&r->log, s, s->shots[index].index, &image);
+    rlf_result result =
+        io_ros_read_picture(&r->log, s, (int32_t)s->shots.items[index].position, &image);
     return result == RLF_OK ? io_ros_decode_color(&r->decoder, &image, s->pixels, out) : result;
 }
 
@@ -41,10 +37,8 @@ void io_ros_recording_free(io_ros_recording *r)
     rlf_free(r->pictures);
     rlf_free(r->infos);
     rlf_free(r->transforms);
-    rlf_free(r->depth.shots);
-    rlf_free(r->depth.times);
-    rlf_free(r->color.shots);
-    rlf_free(r->color.times);
+    io_shots_free(&r->depth.shots);
+    io_shots_free(&r->color.shots);
     rlf_free(r->decoder.counts);
 }
 
@@ -77,17 +71,12 @@ static rlf_result list_shots(const io_ros_log *log, io_ros_stream *s)
 {
     const io_ros_channel channel =
         s->channel >= 0 ? log->channel(log->self, s->channel) : (io_ros_channel){.count = 0};
-    s->count = channel.count;
-    s->shots = rlf_alloc_array((size_t)s->count, sizeof(s->shots[0]));
-    s->times = rlf_alloc_array((size_t)s->count, sizeof(s->times[0]));
-    if (s->shots == NULL || s->times == NULL) {
-        return RLF_ERROR_MEMORY;
+    rlf_result result = RLF_OK;
+    for (int32_t i = 0; i < channel.count && result == RLF_OK; i++) {
+        const io_shot shot = {log->time(log->self, channel.first + i), i, 0};
+        result = io_shots_add(&s->shots, log->name, shot);
     }
-    for (int32_t i = 0; i < s->count; i++) {
-        s->shots[i] = (io_ros_shot){log->time(log->self, channel.first + i), i};
-        s->times[i] = s->shots[i].time_ns;
-    }
-    return RLF_OK;
+    return result;
 }
 
 /* False when the message has no time of its own. */
@@ -98,7 +87,7 @@ static bool use_stamp(const io_ros_log *log, io_ros_stream *s, int32_t index)
     const bool is_good = log->read(log->self, log->channel(log->self, s->channel).first + index,
                                    &message) == RLF_OK &&
                          io_ros_read_stamp(message, &stamp_ns) && stamp_ns > 0;
-    s->shots[index].time_ns = is_good ? stamp_ns : s->shots[index].time_ns;
+    s->shots.items[index].time_ns = is_good ? stamp_ns : s->shots.items[index].time_ns;
     return is_good;
 }
 
@@ -110,37 +99,23 @@ static void use_stamps(io_ros_recording *r)
     io_ros_stream *const streams[2] = {&r->depth, &r->color};
     int32_t at[2] = {0, 0};
     bool is_good = true;
-    while ((at[0] < r->depth.count || at[1] < r->color.count) && (is_good || !r->log.is_ros1)) {
-        const bool is_color =
-            at[0] == r->depth.count ||
-            (at[1] < r->color.count && r->color.times[at[1]] < r->depth.times[at[0]]);
-        is_good = use_stamp(&r->log, streams[is_color], at[is_color]) && is_good;
-        at[is_color]++;
+    for (;;) {
+        int64_t arrival_ns[2];
+        for (int k = 0; k < 2; k++) {
+            const io_ros_stream *s = streams[k];
+            arrival_ns[k] = at[k] < s->shots.count ? s->shots.items[at[k]].time_ns : INT64_MAX;
+        }
+        const bool is_color = at[0] == r->depth.shots.count || arrival_ns[1] < arrival_ns[0];
+        if (at[is_color] == streams[is_color]->shots.count || (!is_good && r->log.is_ros1)) {
+            break;
+        }
+        is_good = use_stamp(&r->log, streams[is_color], at[is_color]++) && is_good;
     }
     for (int k = 0; k < 2 && r->log.is_ros1 && !is_good; k++) {
-        for (int32_t i = 0; i < streams[k]->count; i++) {
-            streams[k]->shots[i].time_ns = streams[k]->times[i];
+        for (int32_t i = 0; i < at[k]; i++) {
+            const io_ros_channel c = r->log.channel(r->log.self, streams[k]->channel);
+            streams[k]->shots.items[i].time_ns = r->log.time(r->log.self, c.first + i);
         }
-    }
-}
-
-static int compare_shots(const void *a, const void *b)
-{
-    const io_ros_shot *x = a;
-    const io_ros_shot *y = b;
-    if (x->time_ns != y->time_ns) {
-        return x->time_ns < y->time_ns ? -1 : 1;
-    }
-    return (x->index > y->index) - (x->index < y->index);
-}
-
-static void sort_shots(io_ros_stream *s)
-{
-    if (s->count > 0) {
-        qsort(s->shots, (size_t)s->count, sizeof(s->shots[0]), compare_shots);
-    }
-    for (int32_t i = 0; i < s->count; i++) {
-        s->times[i] = s->shots[i].time_ns;
     }
 }
 
@@ -153,8 +128,8 @@ rlf_result io_ros_list_pictures(io_ros_recording *r, bool has_stamps)
     }
     if (result == RLF_OK && has_stamps) {
         use_stamps(r);
-        sort_shots(&r->depth);
-        sort_shots(&r->color);
+        (void)io_shots_sort(&r->depth.shots);
+        (void)io_shots_sort(&r->color.shots);
     }
     return result;
 }
@@ -178,20 +153,20 @@ static rlf_result read_gap(const rlf_address *address, int64_t *out_ns)
 }
 
 /* A recording whose colour is never near its depth would show none, and not say why. */
-static void warn_unpaired(const io_ros_recording *r, int64_t gap_ns)
+static void warn_unpaired(const io_clip_def *def)
 {
     int64_t nearest = INT64_MAX;
-    for (int32_t i = 0; i < r->depth.count; i++) {
-        const int64_t time = r->depth.times[i];
-        const int32_t at = io_time_nearest(r->color.times, r->color.count, time, INT64_MAX - 1);
-        const int64_t gap = at >= 0 ? llabs(r->color.times[at] - time) : nearest;
+    for (int32_t i = 0; i < def->depth.count; i++) {
+        const int64_t time_ns = io_time_at(&def->depth, i);
+        const int32_t at = io_time_nearest(&def->color, time_ns, INT64_MAX - 1);
+        const int64_t gap = at >= 0 ? llabs(io_time_at(&def->color, at) - time_ns) : nearest;
         nearest = gap < nearest ? gap : nearest;
     }
-    if (r->color.count > 0 && nearest > gap_ns) {
+    if (def->color.count > 0 && nearest > def->color_gap_max_ns) {
         rlf_log(RLF_LOG_WARNING,
                 "%s: the colour pictures are %lld ms or more away from the depth, so none is "
                 "shown: ?gap=MS allows more",
-                r->log.name, (long long)(nearest / 1000000));
+                def->name, (long long)(nearest / 1000000));
     }
 }
 
@@ -209,21 +184,19 @@ rlf_result io_ros_open_clip(io_ros_recording *r, const rlf_address *address, io_
     if (result != RLF_OK) {
         return result;
     }
-    if (!def->origin.has_notes) {
-        warn_unpaired(r, gap_ns);
-    }
     def->name = r->log.name;
     def->rig = r->rig;
     def->units_per_metre = !is_metres                 ? r->units_per_metre
                            : r->decoder.rounds_metres ? IO_PIXELS_FLOAT_UNITS
                                                       : 0.0;
-    def->depth_times = r->depth.times;
-    def->color_times = r->color.times;
-    def->depth_count = r->depth.count;
-    def->color_count = r->color.count;
+    def->depth = io_shots_times(&r->depth.shots);
+    def->color = io_shots_times(&r->color.shots);
     def->color_gap_max_ns = gap_ns;
     def->flags = r->flags;
     def->read_depth = read_depth;
     def->read_color = read_color;
+    if (!def->origin.has_notes) {
+        warn_unpaired(def);
+    }
     return io_clip_open(def, out);
 }

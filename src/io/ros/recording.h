@@ -131,16 +131,12 @@ typedef struct io_ros_log {
     rlf_result (*read)(void *self, int32_t message, io_cdr_reader *out);
 } io_ros_log;
 
-typedef struct io_ros_shot io_ros_shot;
-
 /* A topic of pictures, and when they were taken. */
 typedef struct io_ros_stream {
     int32_t channel, picture; /* -1 = none */
     bool is_compressed;
     io_ros_pixels pixels;
-    io_ros_shot *shots; /* in the order of `times` */
-    int64_t *times;
-    int32_t count;
+    io_shots shots; /* by time; their places are numbers in the topic */
 } io_ros_stream;
 
 typedef struct io_ros_transforms io_ros_transforms;

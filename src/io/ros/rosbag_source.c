@@ -204,25 +204,21 @@ static rlf_result open_recording(const rlf_address *address, rosbag *b, rlf_open
     return result;
 }
 
-static rlf_result rosbag_open(const rlf_address *address, rlf_opened *out)
+static rlf_result open_all(const rlf_address *address, rosbag *b, rlf_opened *out)
 {
-    rosbag *b = rlf_alloc(sizeof(*b));
-    if (b == NULL) {
-        return RLF_ERROR_MEMORY;
-    }
     snprintf(b->path, sizeof(b->path), "%s", address->place);
     rlf_result result = bag_open(b->path, &b->bag);
     if (result == RLF_OK) {
         mark(b);
         result = bag_index(b->bag);
     }
-    if (result == RLF_OK) {
-        result = open_recording(address, b, out);
-    }
-    if (result != RLF_OK) {
-        rosbag_destroy(b);
-    }
-    return result;
+    return result == RLF_OK ? open_recording(address, b, out) : result;
+}
+
+static rlf_result rosbag_open(const rlf_address *address, rlf_opened *out)
+{
+    rosbag *b = rlf_alloc(sizeof(*b));
+    return io_open_end(b != NULL ? open_all(address, b, out) : RLF_ERROR_MEMORY, b, rosbag_destroy);
 }
 
 const rlf_backend io_backend_rosbag = {

@@ -125,22 +125,8 @@ rlf_result io_scene_note_body(const io_json_object *body, const io_scene_reader 
 rlf_result io_scene_reserve(io_scene_reader *reader, int32_t count)
 {
     rlf_scene *scene = reader->scene;
-    int32_t needed = scene->body_count + count;
-    if (needed <= reader->capacity) {
-        return RLF_OK;
-    }
-    int32_t room = needed > 2 * reader->capacity ? needed : 2 * reader->capacity;
-    rlf_body_def *bodies = rlf_alloc_array((size_t)room, sizeof(*bodies));
-    if (bodies == NULL) {
-        return RLF_ERROR_MEMORY;
-    }
-    if (scene->body_count > 0) {
-        memcpy(bodies, scene->bodies, (size_t)scene->body_count * sizeof(*bodies));
-    }
-    rlf_free(scene->bodies);
-    scene->bodies = bodies;
-    reader->capacity = room;
-    return RLF_OK;
+    return io_list_grow((void **)(void *)&scene->bodies, scene->body_count, count,
+                        &reader->capacity, sizeof(scene->bodies[0]));
 }
 
 rlf_result io_scene_read_body(const io_json_object *body, const io_scene_reader *reader)
