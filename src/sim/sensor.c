@@ -20,7 +20,7 @@ static rlf_rig make_rig(const rlf_synthetic_def *def)
                    /* 1.5 - 0.5 z + 0.3 z^2 mm: Fankhauser et al. 2015 for frontal surfaces */
                    .noise = {0.0015, -0.0005, 0.0003}};
     if (def->enable_structured_light) {
-        rig.noise = (rlf_depth_noise){0.0008, 0.0, 0.0012}; /* as measured of a Kinect v1 */
+        rig.noise = rlf_rig_default().noise; /* as measured of a Kinect v1 */
     }
     rig.depth = (rlf_camera){.width = SYNTH_DEPTH_WIDTH,
                              .height = SYNTH_DEPTH_HEIGHT,

@@ -18,8 +18,17 @@ static bool load(const char *library, const char *first, const char *second, boo
     const char *const names[] = {"libno-such-thing.so.1", library, NULL};
     const io_symbol symbols[] = {{first, offsetof(table, cosine), false},
                                  {second, offsetof(table, none), is_optional}};
-    const io_library_def def = {"RELIEF_TEST_NO_SUCH_VARIABLE", names, "install it", symbols, 2};
-    return io_library_load(&def, t, reason, 160);
+    io_library l = {.variable = "RELIEF_TEST_NO_SUCH_VARIABLE",
+                    .names = names,
+                    .cure = "install it",
+                    .symbols = symbols,
+                    .symbol_count = 2,
+                    .table = t};
+    const char *problem;
+    const bool is_loaded = io_library_get(&l, &problem) == t;
+    assert_true(is_loaded == (problem == NULL));
+    snprintf(reason, 160, "%s", problem != NULL ? problem : "");
+    return is_loaded;
 }
 
 static void loads_libraries(void **state)

@@ -141,16 +141,6 @@ typedef struct io_clip_def {
 /* Makes the source's parts. On failure the reader is left to the caller. */
 rlf_result io_clip_open(const io_clip_def *def, rlf_opened *out);
 
-/* How a back end's open ends: what it made is destroyed when it failed. `self` NULL = nothing was
- * made. */
-static inline rlf_result io_open_end(rlf_result result, void *self, void (*destroy)(void *))
-{
-    if (result != RLF_OK && self != NULL) {
-        destroy(self);
-    }
-    return result;
-}
-
 /* ---- Calibration of recordings that hold none ---- */
 
 /* The user's own (?camera=FILE), else FILE.json beside the recording FILE.xyz, else camera.json in

@@ -229,16 +229,11 @@ static rlf_result make_color_camera(folder *self)
 /* Without camera.json: one camera for both pictures. */
 static rlf_result make_rig(folder *self)
 {
-    const rlf_rig defaults = rlf_rig_default();
-    rlf_rig *rig = &self->rig;
+    self->rig = rlf_rig_default();
     rlf_result result = make_depth_camera(self);
     if (result == RLF_OK && self->layout.color.count > 0) {
         result = make_color_camera(self);
     }
-    rig->T_color_depth = rlf_pose_identity();
-    rig->depth_min_m = defaults.depth_min_m;
-    rig->depth_max_m = defaults.depth_max_m;
-    rig->noise = defaults.noise;
     self->flags = RLF_FRAME_ALIGNED;
     return result;
 }

@@ -14,12 +14,7 @@
 #define JPEG_PIXELS_PER_BYTE (64 * 8 * 4)
 #define RGB_FORMAT 1
 
-/* A camera writes 0 where it is too near to measure: what it did write is believed. */
-#define DEPTH_MIN_M 0.1
-#define DEPTH_MAX_M 10.0
-
-/* Structured light, as for camera.json: 2 mm at 1 m, 6 mm at 2 m. */
-static const rlf_depth_noise structured_light = {0.0008, 0.0, 0.0012};
+#define DEPTH_MAX_M 10.0 /* of the cameras that OpenNI has */
 
 typedef struct oni {
     io_file file;
@@ -187,33 +182,17 @@ static void check_color(oni *o)
     }
 }
 
-static rlf_result read_switch(const rlf_address *address, const char *key, bool *out)
-{
-    const char *value = rlf_address_get(address, key);
-    if (value != NULL && strcmp(value, "0") != 0 && strcmp(value, "1") != 0) {
-        return rlf_fail(RLF_ERROR_INVALID, "%s: %s=%.40s: must be 0 or 1", address->source, key,
-                        value);
-    }
-    *out = value != NULL ? value[0] == '1' : *out;
-    return RLF_OK;
-}
-
 static rlf_result read_keys(oni *o, const rlf_address *address)
 {
-    bool has_color = true;
-    bool mirror = false;
-    o->is_aligned = o->index.depth.is_registered;
-    rlf_result result = read_switch(address, "color", &has_color);
-    if (result == RLF_OK) {
-        result = read_switch(address, "aligned", &o->is_aligned);
-    }
-    if (result == RLF_OK) {
-        result = read_switch(address, "mirror", &mirror);
-    }
+    int color = 1, mirror = 0, aligned = o->index.depth.is_registered ? 1 : 0;
+    rlf_result result = io_switch_get(address, "color", &color);
+    result = result == RLF_OK ? io_switch_get(address, "aligned", &aligned) : result;
+    result = result == RLF_OK ? io_switch_get(address, "mirror", &mirror) : result;
     const bool is_told = rlf_address_get(address, "mirror") != NULL;
-    o->depth_flips = is_told ? mirror : o->index.depth.is_mirrored;
-    o->color_flips = is_told ? mirror : o->index.color.is_mirrored;
-    o->index.color.pictures.count = has_color ? o->index.color.pictures.count : 0;
+    o->is_aligned = aligned == 1;
+    o->depth_flips = is_told ? mirror == 1 : o->index.depth.is_mirrored;
+    o->color_flips = is_told ? mirror == 1 : o->index.color.is_mirrored;
+    o->index.color.pictures.count = color == 1 ? o->index.color.pictures.count : 0;
     return result;
 }
 
@@ -223,11 +202,9 @@ static void rig_of_file(oni *o)
     const oni_node *d = &o->index.depth;
     const oni_node *c = &o->index.color;
     rlf_rig *rig = &o->rig;
-    *rig = (rlf_rig){.T_color_depth = rlf_pose_identity(),
-                     .depth_min_m = DEPTH_MIN_M,
-                     .depth_max_m = DEPTH_MAX_M,
-                     .noise = structured_light,
-                     .has_color = c->pictures.count > 0};
+    *rig = rlf_rig_default();
+    rig->depth_max_m = DEPTH_MAX_M;
+    rig->has_color = c->pictures.count > 0;
     const bool is_told = io_camera_from_fov(d->width, d->height, d->fov_x, d->fov_y, &rig->depth);
     if (rig->has_color &&
         !io_camera_from_fov(c->width, c->height, c->fov_x, c->fov_y, &rig->color)) {

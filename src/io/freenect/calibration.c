@@ -16,11 +16,7 @@
 #define SHIFT_OFFSET 0.375
 #define MM_PER_CM 10.0
 
-#define DEPTH_MIN_M 0.1
 #define DEPTH_MAX_M 10.0
-
-/* Structured light, as for camera.json: 2 mm at 1 m, 6 mm at 2 m. */
-static const rlf_depth_noise structured_light = {0.0008, 0.0, 0.0012};
 
 #define SAMPLE_STEP 16
 #define SAMPLES_MIN 100
@@ -259,13 +255,11 @@ void freenect_make_rig(const freenect_registration *r, rlf_rig *out, double *out
     const bool has = r != NULL && freenect_has_reference(r);
     const double focal = has ? (double)r->reference_cm / (2.0 * (double)r->pixel_mm)
                              : REFERENCE_CM / (2.0 * PIXEL_MM);
-    *out = (rlf_rig){.depth = camera_of(focal),
-                     .color = camera_of(COLOR_FOCAL),
-                     .T_color_depth = rlf_pose_identity(),
-                     .has_color = true,
-                     .depth_min_m = DEPTH_MIN_M,
-                     .depth_max_m = DEPTH_MAX_M,
-                     .noise = structured_light};
+    *out = rlf_rig_default();
+    out->depth = camera_of(focal);
+    out->color = camera_of(COLOR_FOCAL);
+    out->has_color = true;
+    out->depth_max_m = DEPTH_MAX_M;
     out->T_color_depth.p.x = -COLOR_RIGHT_M;
     *out_error = -1.0;
     if (has && r->table != NULL && r->depth_to_rgb_shift != NULL) {

@@ -7,12 +7,31 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define WAIT_MS 100  /* a call of next takes at most this long */
-#define EVENTS_MS 20 /* of which so long in the library at a time */
+#define EVENTS_MS 20 /* in the library at a time */
 #define RATE 30.0
 /* The device counts 60 ticks a microsecond: 50 / 3 nanoseconds a tick. */
 #define NS_NUMERATOR 50
 #define NS_DENOMINATOR 3
+
+static const io_symbol symbols[] = {
+#define SYMBOL(result, member, name, parameters)                                                   \
+    {"freenect_" name, offsetof(freenect_api, member), false},
+#define OPTIONAL(result, member, name, parameters)                                                 \
+    {"freenect_" name, offsetof(freenect_api, member), true},
+    FREENECT_FUNCTIONS(SYMBOL) FREENECT_OPTIONAL_FUNCTIONS(OPTIONAL)
+#undef SYMBOL
+#undef OPTIONAL
+};
+
+static const char *const names[] = {"libfreenect.so.0.5", "libfreenect.so.0", NULL};
+static freenect_api functions;
+static io_library library = {
+    .variable = "RELIEF_FREENECT_LIBRARY",
+    .names = names,
+    .cure = "apt install libfreenect0.5, or name its file in RELIEF_FREENECT_LIBRARY",
+    .symbols = symbols,
+    .symbol_count = (int32_t)(sizeof(symbols) / sizeof(symbols[0])),
+    .table = &functions};
 
 typedef struct kinect {
     char source[512];
@@ -42,7 +61,7 @@ static int64_t time_of(kinect *k, uint32_t ticks)
 
 static void on_depth(void *device, void *picture, uint32_t ticks)
 {
-    kinect *k = freenect_get_api()->get_user(device);
+    kinect *k = functions.get_user(device);
     const uint16_t *in = picture;
     uint16_t *out = io_stream_pair_depth(&k->pair);
     for (int y = 0; y < FREENECT_HEIGHT; y++) {
@@ -57,7 +76,7 @@ static void on_depth(void *device, void *picture, uint32_t ticks)
 
 static void on_video(void *device, void *picture, uint32_t ticks)
 {
-    kinect *k = freenect_get_api()->get_user(device);
+    kinect *k = functions.get_user(device);
     const rlf_image_rgba8 out = io_stream_pair_color(&k->pair);
     for (int y = 0; y < FREENECT_HEIGHT; y++) {
         io_rgb_row((const uint8_t *)picture + (ptrdiff_t)y * FREENECT_WIDTH * 3, FREENECT_WIDTH,
@@ -84,22 +103,16 @@ static rlf_result fail_gone(kinect *k)
 
 /* The library's events call on_depth and on_video. One call may bring two depth pictures at most:
  * they come 33 ms apart. */
-static rlf_result kinect_next(void *self, rlf_frame *out)
+static rlf_result pump(void *self, int32_t wait_ms)
 {
     kinect *k = self;
-    const int64_t end_ns = rlf_clock_ns() + WAIT_MS * INT64_C(1000000);
-    for (;;) {
-        if (io_stream_pair_take(&k->pair, false, out)) {
-            return RLF_OK;
-        }
-        if (rlf_clock_ns() >= end_ns) {
-            return io_stream_pair_take(&k->pair, true, out) ? RLF_OK : RLF_NO_FRAME;
-        }
-        struct timeval timeout = {0, EVENTS_MS * 1000};
-        if (k->is_gone || k->api->process(k->context, &timeout) < 0) {
-            return fail_gone(k);
-        }
-    }
+    struct timeval timeout = {0, (wait_ms < EVENTS_MS ? wait_ms : EVENTS_MS) * 1000};
+    return k->is_gone || k->api->process(k->context, &timeout) < 0 ? fail_gone(k) : RLF_OK;
+}
+
+static rlf_result kinect_next(void *self, rlf_frame *out)
+{
+    return io_stream_pair_next(&((kinect *)self)->pair, pump, self, out);
 }
 
 static void kinect_status(void *self, rlf_source_status *out)
@@ -124,9 +137,10 @@ static void kinect_destroy(void *self)
 
 static rlf_result open_context(kinect *k, const char *source)
 {
-    k->api = freenect_get_api();
+    const char *reason;
+    k->api = io_library_get(&library, &reason);
     if (k->api == NULL) {
-        return rlf_fail(RLF_ERROR_UNSUPPORTED, "%s: %s", source, freenect_unavailable());
+        return rlf_fail(RLF_ERROR_UNSUPPORTED, "%s: %s", source, reason);
     }
     if (k->api->init(&k->context, NULL) < 0) {
         k->context = NULL;
@@ -163,25 +177,16 @@ static rlf_result open_device(kinect *k, const rlf_address *address)
     return RLF_OK;
 }
 
-static rlf_result read_switch(const rlf_address *address, const char *key, bool *out)
-{
-    const char *value = rlf_address_get(address, key);
-    if (value != NULL && strcmp(value, "0") != 0 && strcmp(value, "1") != 0) {
-        return rlf_fail(RLF_ERROR_INVALID, "%s: %s=%.40s: must be 0 or 1", address->source, key,
-                        value);
-    }
-    *out = value != NULL ? value[0] == '1' : *out;
-    return RLF_OK;
-}
-
 static rlf_result read_keys(kinect *k, const rlf_address *address)
 {
-    k->has_color = true;
-    rlf_result result = read_switch(address, "color", &k->has_color);
-    if (result == RLF_OK) {
-        result = read_switch(address, "aligned", &k->is_aligned);
-    }
-    return result == RLF_OK ? read_switch(address, "mirror", &k->flips) : result;
+    int color = 1, aligned = 0, mirror = 0;
+    rlf_result result = io_switch_get(address, "color", &color);
+    result = result == RLF_OK ? io_switch_get(address, "aligned", &aligned) : result;
+    result = result == RLF_OK ? io_switch_get(address, "mirror", &mirror) : result;
+    k->has_color = color == 1;
+    k->is_aligned = aligned == 1;
+    k->flips = mirror == 1;
+    return result;
 }
 
 /* Depth warped by the library lies in the colour camera. */
@@ -272,27 +277,17 @@ static rlf_result open_all(kinect *k, const rlf_address *address)
 
 static rlf_result kinect_open(const rlf_address *address, rlf_opened *out)
 {
+    static const rlf_source_methods methods = {
+        .next = kinect_next, .destroy = kinect_destroy, .status = kinect_status};
     kinect *k = rlf_alloc(sizeof(*k));
     if (k == NULL) {
         return RLF_ERROR_MEMORY;
     }
     snprintf(k->source, sizeof(k->source), "%.511s", address->source);
     rlf_result result = open_all(k, address);
-    if (result != RLF_OK) {
-        kinect_destroy(k);
-        return result;
-    }
-    memset(out, 0, sizeof(*out));
-    out->methods = (rlf_source_methods){
-        .next = kinect_next, .destroy = kinect_destroy, .status = kinect_status};
-    snprintf(out->info.name, sizeof(out->info.name), "%.127s", address->source);
+    io_live_opened(&methods, k, k->source, &k->rig, RATE, out);
     snprintf(out->info.device, sizeof(out->info.device), "Kinect v1 (libfreenect)");
-    out->info.rig = k->rig;
-    out->info.frame_count = -1;
-    out->info.frames_per_second = RATE;
-    out->info.is_live = true;
-    out->self = k;
-    return RLF_OK;
+    return io_open_end(result, k, kinect_destroy);
 }
 
 static void describe(rlf_source_entry *entry, int32_t index, const char *serial)
@@ -330,13 +325,20 @@ static int32_t kinect_list(rlf_source_entry *out, int32_t capacity)
     return count > 0 ? count : 0;
 }
 
+static const char *unavailable(void)
+{
+    const char *reason;
+    (void)io_library_get(&library, &reason);
+    return reason;
+}
+
 const rlf_backend io_backend_freenect = {
     .version = RLF_BACKEND_VERSION,
     .scheme = "freenect",
     .keys = "color aligned mirror",
     .summary = "Kinect v1 (Xbox 360) through libfreenect: number or serial number",
     .is_live = true,
-    .unavailable = freenect_unavailable,
+    .unavailable = unavailable,
     .list = kinect_list,
     .open = kinect_open,
 };

@@ -52,39 +52,43 @@ typedef struct freenect_registration {
 typedef void (*freenect_picture_fn)(void *device, void *picture, uint32_t time);
 typedef void (*freenect_log_fn)(void *context, int level, const char *line);
 
-/* Functions from list_attributes on may be NULL: Debian's fakenect has none of them. */
-typedef struct freenect_api {
-    int (*init)(void **out_context, void *usb);
-    int (*shutdown)(void *context);
-    void (*set_log)(void *context, freenect_log_fn fn);
-    void (*select_subdevices)(void *context, int flags);
-    int (*count_devices)(void *context);
-    int (*open)(void *context, void **out_device, int index);
-    int (*open_serial)(void *context, void **out_device, const char *serial);
-    int (*close)(void *device);
-    void (*set_user)(void *device, void *user);
-    void *(*get_user)(void *device);
-    void (*on_depth)(void *device, freenect_picture_fn fn);
-    void (*on_video)(void *device, freenect_picture_fn fn);
-    freenect_mode (*find_depth)(int resolution, int format);
-    freenect_mode (*find_video)(int resolution, int format);
-    int (*set_depth)(void *device, freenect_mode mode);
-    int (*set_video)(void *device, freenect_mode mode);
-    int (*start_depth)(void *device);
-    int (*start_video)(void *device);
-    int (*stop_depth)(void *device);
-    int (*stop_video)(void *device);
-    int (*process)(void *context, struct timeval *timeout);
-    int (*list_attributes)(void *context, freenect_attributes **out);
-    void (*free_attributes)(freenect_attributes *list);
-    freenect_registration (*copy_registration)(void *device);
-    int (*destroy_registration)(freenect_registration *registration);
-} freenect_api;
+/* F(result, member, name without freenect_, parameters) */
+#define FREENECT_FUNCTIONS(F)                                                                      \
+    F(int, init, "init", (void **out_context, void *usb))                                          \
+    F(int, shutdown, "shutdown", (void *context))                                                  \
+    F(void, set_log, "set_log_callback", (void *context, freenect_log_fn fn))                      \
+    F(void, select_subdevices, "select_subdevices", (void *context, int flags))                    \
+    F(int, count_devices, "num_devices", (void *context))                                          \
+    F(int, open, "open_device", (void *context, void **out_device, int index))                     \
+    F(int, open_serial, "open_device_by_camera_serial",                                            \
+      (void *context, void **out_device, const char *serial))                                      \
+    F(int, close, "close_device", (void *device))                                                  \
+    F(void, set_user, "set_user", (void *device, void *user))                                      \
+    F(void *, get_user, "get_user", (void *device))                                                \
+    F(void, on_depth, "set_depth_callback", (void *device, freenect_picture_fn fn))                \
+    F(void, on_video, "set_video_callback", (void *device, freenect_picture_fn fn))                \
+    F(freenect_mode, find_depth, "find_depth_mode", (int resolution, int format))                  \
+    F(freenect_mode, find_video, "find_video_mode", (int resolution, int format))                  \
+    F(int, set_depth, "set_depth_mode", (void *device, freenect_mode mode))                        \
+    F(int, set_video, "set_video_mode", (void *device, freenect_mode mode))                        \
+    F(int, start_depth, "start_depth", (void *device))                                             \
+    F(int, start_video, "start_video", (void *device))                                             \
+    F(int, stop_depth, "stop_depth", (void *device))                                               \
+    F(int, stop_video, "stop_video", (void *device))                                               \
+    F(int, process, "process_events_timeout", (void *context, struct timeval *timeout))
 
-/* Why the library cannot be used and what to do, or NULL when it can. */
-const char *freenect_unavailable(void);
-/* NULL when it cannot be used. Thread-safety: safe. */
-const freenect_api *freenect_get_api(void);
+/* These may be NULL: Debian's fakenect has none of them. */
+#define FREENECT_OPTIONAL_FUNCTIONS(F)                                                             \
+    F(int, list_attributes, "list_device_attributes", (void *context, freenect_attributes **out))  \
+    F(void, free_attributes, "free_device_attributes", (freenect_attributes * list))               \
+    F(freenect_registration, copy_registration, "copy_registration", (void *device))               \
+    F(int, destroy_registration, "destroy_registration", (freenect_registration * registration))
+
+typedef struct freenect_api {
+#define FREENECT_MEMBER(result, member, name, parameters) result(*member) parameters;
+    FREENECT_FUNCTIONS(FREENECT_MEMBER) FREENECT_OPTIONAL_FUNCTIONS(FREENECT_MEMBER)
+#undef FREENECT_MEMBER
+} freenect_api;
 
 /* Kinect v1: from the sensor's counts to depth, and how its two cameras stand. */
 

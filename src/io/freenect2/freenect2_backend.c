@@ -3,54 +3,47 @@
 #include "io/freenect2/freenect2.h"
 #include "io/source/backends.h"
 
-#include <pthread.h>
 #include <stdio.h>
 #include <string.h>
 
 static freenect2_api functions;
-static char reason[256];
-static bool is_loaded;
-static pthread_once_t once = PTHREAD_ONCE_INIT;
 
-static void load(void)
+static const char *check_version(void)
 {
-    static const io_symbol symbols[] = {
+    return functions.version() == RELIEF_FREENECT2_VERSION
+               ? NULL
+               : "librelief_freenect2.so is of another version of Relief: "
+                 "install both from one build";
+}
+
+static const io_symbol symbols[] = {
 #define SYMBOL(result, name, parameters)                                                           \
     {"relief_freenect2_" #name, offsetof(freenect2_api, name), false},
-        RELIEF_FREENECT2_FUNCTIONS(SYMBOL)
+    RELIEF_FREENECT2_FUNCTIONS(SYMBOL)
 #undef SYMBOL
-    };
-    static const char *const names[] = {"librelief_freenect2.so", RLF_FREENECT2_SHIM_PATH, NULL};
-    static const io_library_def def = {
-        .variable = "RELIEF_FREENECT2_LIBRARY",
-        .names = names,
-        .cure = "build libfreenect2 from source (github.com/OpenKinect/libfreenect2, not in "
-                "Debian), then `cmake --preset release -DRELIEF_WITH_FREENECT2=ON` and build again",
-        .symbols = symbols,
-        .symbol_count = (int32_t)(sizeof(symbols) / sizeof(symbols[0]))};
-    is_loaded = io_library_load(&def, &functions, reason, sizeof(reason));
-    if (is_loaded && functions.version() != RELIEF_FREENECT2_VERSION) {
-        is_loaded = false;
-        snprintf(reason, sizeof(reason),
-                 "librelief_freenect2.so is of another version of Relief: "
-                 "install both from one build");
-    }
-}
-
-static const freenect2_api *get_api(void)
-{
-    pthread_once(&once, load);
-    return is_loaded ? &functions : NULL;
-}
+};
+static const char *const names[] = {"librelief_freenect2.so", RLF_FREENECT2_SHIM_PATH, NULL};
+static io_library library = {
+    .variable = "RELIEF_FREENECT2_LIBRARY",
+    .names = names,
+    .cure = "build libfreenect2 from source (github.com/OpenKinect/libfreenect2, not in "
+            "Debian), then `cmake --preset release -DRELIEF_WITH_FREENECT2=ON` and build again",
+    .symbols = symbols,
+    .symbol_count = (int32_t)(sizeof(symbols) / sizeof(symbols[0])),
+    .table = &functions,
+    .check = check_version};
 
 static const char *freenect2_unavailable(void)
 {
-    return get_api() != NULL ? NULL : reason;
+    const char *reason;
+    (void)io_library_get(&library, &reason);
+    return reason;
 }
 
 static int32_t freenect2_list(rlf_source_entry *out, int32_t capacity)
 {
-    const freenect2_api *api = get_api();
+    const char *reason;
+    const freenect2_api *api = io_library_get(&library, &reason);
     const int count = api != NULL ? api->count() : 0;
     for (int32_t i = 0; i < count && i < capacity; i++) {
         char serial[64] = "";
@@ -139,11 +132,10 @@ static rlf_result make_rig(freenect2 *k, const rlf_address *address)
 
 static rlf_result allocate(freenect2 *k)
 {
-    const rlf_camera *c = &k->rig.color; /* of the pictures, also where it is not used */
+    const rlf_rig pictures = {.color = k->rig.color, .has_color = true}; /* also where not used */
+    rlf_result result = io_live_make_color(&pictures, &k->color);
     k->depth = rlf_alloc_array(KINECT2_DEPTH_PIXELS, sizeof(k->depth[0]));
-    k->color = (rlf_image_rgba8){rlf_alloc_array((size_t)c->width * (size_t)c->height, 4), c->width,
-                                 c->height, (ptrdiff_t)c->width * 4};
-    bool is_complete = k->depth != NULL && k->color.data != NULL;
+    bool is_complete = result == RLF_OK && k->depth != NULL;
     if (k->is_aligned) {
         k->undistorted = rlf_alloc_array(KINECT2_DEPTH_PIXELS, sizeof(k->undistorted[0]));
         k->registered = rlf_alloc_array(KINECT2_DEPTH_PIXELS, sizeof(k->registered[0]));
@@ -154,22 +146,12 @@ static rlf_result allocate(freenect2 *k)
     return is_complete ? RLF_OK : RLF_ERROR_MEMORY;
 }
 
-static void describe(const freenect2 *k, rlf_opened *out)
-{
-    memset(out, 0, sizeof(*out));
-    out->methods = (rlf_source_methods){
-        .next = io_freenect2_next, .destroy = freenect2_destroy, .status = freenect2_status};
-    snprintf(out->info.name, sizeof(out->info.name), "%.127s", k->source);
-    out->info.rig = k->rig;
-    out->info.frame_count = -1;
-    out->info.frames_per_second = 30.0;
-    out->info.is_live = true;
-    snprintf(out->info.device, sizeof(out->info.device), "libfreenect2: Kinect v2");
-}
-
 static rlf_result freenect2_open(const rlf_address *address, rlf_opened *out)
 {
-    const freenect2_api *api = get_api();
+    static const rlf_source_methods methods = {
+        .next = io_freenect2_next, .destroy = freenect2_destroy, .status = freenect2_status};
+    const char *reason;
+    const freenect2_api *api = io_library_get(&library, &reason);
     if (api == NULL) {
         return rlf_fail(RLF_ERROR_UNSUPPORTED, "%s: %s", address->source, reason);
     }
@@ -184,14 +166,10 @@ static rlf_result freenect2_open(const rlf_address *address, rlf_opened *out)
     result = result == RLF_OK ? open_device(k, address) : result;
     result = result == RLF_OK ? make_rig(k, address) : result;
     result = result == RLF_OK ? allocate(k) : result;
-    if (result != RLF_OK) {
-        freenect2_destroy(k);
-        return result;
-    }
     k->last_frame_ns = rlf_clock_ns();
-    describe(k, out);
-    out->self = k;
-    return RLF_OK;
+    io_live_opened(&methods, k, k->source, &k->rig, 30.0, out);
+    snprintf(out->info.device, sizeof(out->info.device), "libfreenect2: Kinect v2");
+    return io_open_end(result, k, freenect2_destroy);
 }
 
 const rlf_backend io_backend_freenect2 = {

@@ -1,11 +1,10 @@
 /* Frames of a Kinect v2. */
+#include "io/clip/clip.h"
 #include "io/freenect2/freenect2.h"
 
 #include <string.h>
 
 #define TICK_NS 125000 /* of the device's time */
-/* Colour farther in time shows something else: one and a half frames. */
-#define COLOR_GAP_MAX_NS 50000000
 /* libfreenect2 never says that the plug was pulled: the frames end. */
 #define SILENCE_MAX_NS 2000000000
 
@@ -70,7 +69,7 @@ static int64_t unwrap(freenect2 *k, uint32_t time)
 
 static bool is_paired(const relief_freenect2_frame *in, int64_t gap_ns)
 {
-    return in->color != NULL && gap_ns < COLOR_GAP_MAX_NS && gap_ns > -COLOR_GAP_MAX_NS;
+    return in->color != NULL && gap_ns < IO_COLOR_GAP_MAX_NS && gap_ns > -IO_COLOR_GAP_MAX_NS;
 }
 
 static rlf_result fill(freenect2 *k, const relief_freenect2_frame *in, rlf_frame *out)

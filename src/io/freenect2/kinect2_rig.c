@@ -10,8 +10,6 @@
 /* Kinect v2 as it is sold: 0.5 to 4.5 m. */
 #define DEPTH_MIN_M 0.5
 #define DEPTH_MAX_M 4.5
-/* Fankhauser et al. 2015, frontal surfaces: see rlf_depth_noise. */
-static const rlf_depth_noise kinect2_noise = {0.0015, -0.0005, 0.0003};
 
 #define STEP 16 /* pixels between samples */
 #define SAMPLES_MAX (KINECT2_DEPTH_WIDTH / STEP * (KINECT2_DEPTH_HEIGHT / STEP) * 4)
@@ -195,7 +193,7 @@ rlf_result kinect2_rig_fit(const kinect2_ir *ir, const kinect2_color *color, rlf
                      .has_color = true,
                      .depth_min_m = DEPTH_MIN_M,
                      .depth_max_m = DEPTH_MAX_M,
-                     .noise = kinect2_noise};
+                     .noise = IO_TIME_OF_FLIGHT_NOISE};
     rlf_result result = rlf_camera_check(&out->depth, "freenect2: the camera's own calibration");
     if (result == RLF_OK) {
         result = fit_color(ir, color, out, out_fit);

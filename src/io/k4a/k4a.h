@@ -99,9 +99,6 @@ typedef struct k4a_api {
 #undef IO_K4A_MEMBER
 } k4a_api;
 
-/* The library's functions, or NULL with a line that says why not. Thread-safe. */
-const k4a_api *io_k4a_api(const char **out_reason);
-
 typedef struct k4a {
     const k4a_api *api;
     char source[256], serial[64];

@@ -5,10 +5,26 @@
 #include <stdio.h>
 #include <string.h>
 
+static const io_symbol symbols[] = {
+#define SYMBOL(result, name, parameters) {"k4a_" #name, offsetof(k4a_api, name), false},
+    IO_K4A_FUNCTIONS(SYMBOL)
+#undef SYMBOL
+};
+static const char *const names[] = {"libk4a.so.1.4", "libk4a.so.1.3", "libk4a.so", NULL};
+static k4a_api functions;
+static io_library library = {
+    .variable = "RELIEF_K4A_LIBRARY",
+    .names = names,
+    .cure = "install the Azure Kinect SDK, or Orbbec's K4A wrapper for Femto Bolt and Mega, or "
+            "name its file in RELIEF_K4A_LIBRARY",
+    .symbols = symbols,
+    .symbol_count = (int32_t)(sizeof(symbols) / sizeof(symbols[0])),
+    .table = &functions};
+
 static const char *k4a_unavailable(void)
 {
     const char *reason;
-    io_k4a_api(&reason);
+    (void)io_library_get(&library, &reason);
     return reason;
 }
 
@@ -25,7 +41,7 @@ static void read_serial(const k4a_api *api, k4a_device_t device, char out[64])
 static int32_t k4a_list(rlf_source_entry *out, int32_t capacity)
 {
     const char *reason;
-    const k4a_api *api = io_k4a_api(&reason);
+    const k4a_api *api = io_library_get(&library, &reason);
     const uint32_t count = api != NULL ? api->device_get_installed_count() : 0;
     for (uint32_t i = 0; i < count && (int64_t)i < capacity; i++) {
         char serial[64] = "";
@@ -103,16 +119,9 @@ static rlf_result start(k4a *k, const rlf_address *address)
     result = result == RLF_OK ? open_device(k, serial != NULL ? serial : address->place) : result;
     result = result == RLF_OK ? io_k4a_read_rig(k) : result;
     result = result == RLF_OK ? io_live_use_rig(address, &k->rig) : result;
+    result = result == RLF_OK ? io_live_make_color(&k->rig, &k->color) : result;
     if (result != RLF_OK) {
         return result;
-    }
-    if (k->rig.has_color) {
-        const rlf_camera *c = &k->rig.color;
-        uint8_t *data = rlf_alloc_array((size_t)c->width * (size_t)c->height, 4);
-        k->color = (rlf_image_rgba8){data, c->width, c->height, (ptrdiff_t)c->width * 4};
-        if (data == NULL) {
-            return RLF_ERROR_MEMORY;
-        }
     }
     /* Depth without colour is a frame too: the colour camera slows down in the dark. */
     k->is_streaming = k->api->device_start_cameras(k->device, &k->configuration) == K4A_SUCCEEDED;
@@ -126,8 +135,10 @@ static rlf_result start(k4a *k, const rlf_address *address)
 
 static rlf_result k4a_open(const rlf_address *address, rlf_opened *out)
 {
+    static const rlf_source_methods methods = {
+        .next = io_k4a_next, .destroy = k4a_destroy, .status = k4a_status};
     const char *reason;
-    const k4a_api *api = io_k4a_api(&reason);
+    const k4a_api *api = io_library_get(&library, &reason);
     if (api == NULL) {
         return rlf_fail(RLF_ERROR_UNSUPPORTED, "%s: %s", address->source, reason);
     }
@@ -138,21 +149,9 @@ static rlf_result k4a_open(const rlf_address *address, rlf_opened *out)
     k->api = api;
     snprintf(k->source, sizeof(k->source), "%.255s", address->source);
     rlf_result result = start(k, address);
-    if (result != RLF_OK) {
-        k4a_destroy(k);
-        return result;
-    }
-    memset(out, 0, sizeof(*out));
-    out->methods =
-        (rlf_source_methods){.next = io_k4a_next, .destroy = k4a_destroy, .status = k4a_status};
-    snprintf(out->info.name, sizeof(out->info.name), "%.127s", k->source);
-    out->info.rig = k->rig;
-    out->info.frame_count = -1;
-    out->info.frames_per_second = k->frames_per_second;
-    out->info.is_live = true;
+    io_live_opened(&methods, k, k->source, &k->rig, k->frames_per_second, out);
     snprintf(out->info.device, sizeof(out->info.device), "k4a: serial %s", k->serial);
-    out->self = k;
-    return RLF_OK;
+    return io_open_end(result, k, k4a_destroy);
 }
 
 const rlf_backend io_backend_k4a = {

@@ -2,9 +2,6 @@
 #include "io/k4a/k4a.h"
 
 #define DEPTH_MAX_M 6.0
-/* As the Kinect v2, which measures by the same principle (Fankhauser et al. 2015). */
-static const rlf_depth_noise time_of_flight_noise = {0.0015, -0.0005, 0.0003};
-
 typedef struct depth_mode {
     int32_t width, height, mode, rate_max;
     double depth_min_m;
@@ -92,7 +89,7 @@ rlf_result io_k4a_configure(k4a *k, const io_mode *depth, const io_mode *color)
     k->count.interval_ns = 1000000000 / rate;
     k->rig.depth_min_m = d->depth_min_m;
     k->rig.depth_max_m = DEPTH_MAX_M;
-    k->rig.noise = time_of_flight_noise;
+    k->rig.noise = IO_TIME_OF_FLIGHT_NOISE; /* as the Kinect v2, by the same principle */
     return RLF_OK;
 }
 

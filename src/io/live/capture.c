@@ -41,8 +41,7 @@ static bool is_same_rig(const rlf_rig *a, const rlf_rig *b)
            (!a->has_color || is_same_camera(&a->color, &b->color));
 }
 
-/* Makes the slots for the first frame ever. */
-static rlf_result describe(io_live *l)
+rlf_result live_describe(io_live *l)
 {
     const rlf_rig *rig = &l->device.info.rig;
     rlf_result result = rlf_camera_check(&rig->depth, l->name);
@@ -61,7 +60,7 @@ static rlf_result describe(io_live *l)
     return result;
 }
 
-static void close_device(io_live *l)
+void live_close_device(io_live *l)
 {
     if (l->device.methods.destroy != NULL) {
         l->device.methods.destroy(l->device.self);
@@ -98,7 +97,7 @@ static bool open_device(io_live *l)
         return false;
     }
     if (!l->is_described) {
-        result = describe(l);
+        result = live_describe(l);
         if (result != RLF_OK) {
             live_finish(l, result, rlf_error_text());
         }
@@ -107,7 +106,7 @@ static bool open_device(io_live *l)
         result = RLF_ERROR_DEVICE;
     }
     if (result != RLF_OK) {
-        close_device(l);
+        live_close_device(l);
         return false;
     }
     live_follow_reconnect(&l->follow);
@@ -223,16 +222,6 @@ static bool capture_one(io_live *l)
     return silence_ns < (l->has_device_frame ? LIVE_SILENCE_NS : FIRST_FRAME_NS);
 }
 
-static bool end_thread(io_live *l)
-{
-    pthread_mutex_lock(&l->mutex);
-    l->is_done = true;
-    const bool is_abandoned = l->is_abandoned;
-    pthread_cond_broadcast(&l->news);
-    pthread_mutex_unlock(&l->mutex);
-    return is_abandoned;
-}
-
 void *live_capture(void *live)
 {
     io_live *l = live;
@@ -240,14 +229,12 @@ void *live_capture(void *live)
         if (open_device(l)) {
             while (!is_over(l) && capture_one(l)) {
             }
-            close_device(l);
+            live_close_device(l);
         }
         if (!is_over(l)) {
             rest(l, RETRY_NS);
         }
     }
-    if (end_thread(l)) {
-        live_free(l);
-    }
+    live_end_thread(l);
     return NULL;
 }

@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 rlf_result io_mode_get(const rlf_address *address, const char *key, io_mode *out)
 {
@@ -27,6 +28,41 @@ rlf_result io_mode_get(const rlf_address *address, const char *key, io_mode *out
     }
     *out = (io_mode){width, height, rate};
     return RLF_OK;
+}
+
+rlf_result io_switch_get(const rlf_address *address, const char *key, int *out)
+{
+    const char *value = rlf_address_get(address, key);
+    if (value != NULL && strcmp(value, "0") != 0 && strcmp(value, "1") != 0) {
+        return rlf_fail(RLF_ERROR_INVALID, "%s: %s=%.40s: must be 0 or 1", address->source, key,
+                        value);
+    }
+    *out = value != NULL ? value[0] - '0' : *out;
+    return RLF_OK;
+}
+
+void io_live_opened(const rlf_source_methods *methods, void *self, const char *source,
+                    const rlf_rig *rig, double frames_per_second, rlf_opened *out)
+{
+    memset(out, 0, sizeof(*out));
+    out->methods = *methods;
+    out->self = self;
+    snprintf(out->info.name, sizeof(out->info.name), "%.127s", source);
+    out->info.rig = *rig;
+    out->info.frame_count = -1;
+    out->info.frames_per_second = frames_per_second;
+    out->info.is_live = true;
+}
+
+rlf_result io_live_make_color(const rlf_rig *rig, rlf_image_rgba8 *out)
+{
+    const rlf_camera *c = &rig->color;
+    if (!rig->has_color) {
+        return RLF_OK;
+    }
+    uint8_t *data = rlf_alloc_array((size_t)c->width * (size_t)c->height, 4);
+    *out = (rlf_image_rgba8){data, c->width, c->height, (ptrdiff_t)c->width * 4};
+    return data != NULL ? RLF_OK : RLF_ERROR_MEMORY;
 }
 
 static rlf_result check_size(const rlf_address *address, const char *which,

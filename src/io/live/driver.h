@@ -10,6 +10,9 @@
 /* How long a live source's `next` waits before it says RLF_NO_FRAME. */
 #define IO_LIVE_WAIT_MS 100
 
+/* Random error of time-of-flight cameras, frontal surfaces (Fankhauser et al. 2015, Kinect v2). */
+#define IO_TIME_OF_FLIGHT_NOISE ((rlf_depth_noise){0.0015, -0.0005, 0.0003})
+
 /* A picture's size and rate as a user asks for it; 0 = any. */
 typedef struct io_mode {
     int32_t width, height;
@@ -18,6 +21,16 @@ typedef struct io_mode {
 
 /* Value of `key` as WIDTHxHEIGHT@RATE or WIDTHxHEIGHT; *out is left alone when it was not given. */
 rlf_result io_mode_get(const rlf_address *address, const char *key, io_mode *out);
+
+/* Value of `key`, 0 or 1; *out is left alone when it was not given. */
+rlf_result io_switch_get(const rlf_address *address, const char *key, int *out);
+
+/* What a live camera's open tells, but for the device's name. */
+void io_live_opened(const rlf_source_methods *methods, void *self, const char *source,
+                    const rlf_rig *rig, double frames_per_second, rlf_opened *out);
+
+/* Room for pictures of the rig's colour camera; *out stays as it is where there is none. */
+rlf_result io_live_make_color(const rlf_rig *rig, rlf_image_rgba8 *out);
 
 /* Puts the user's calibration (?camera=FILE) in place of the device's; an error when its pictures
  * have another size. */
@@ -61,17 +74,24 @@ typedef struct io_symbol {
     bool is_optional; /* its pointer stays NULL in versions that have none */
 } io_symbol;
 
-typedef struct io_library_def {
-    const char *variable;     /* of the environment: path of the library to take instead */
-    const char *const *names; /* tried in turn; NULL past the last */
+typedef struct io_library {
+    const char *variable; /* of the environment: path of the library to take instead */
+    const char *folder;   /* of the environment: a folder that is looked in first; NULL = none */
+    const char *const *names; /* tried in turn, "%d" as each of the versions; NULL past the last */
+    int32_t newest, oldest;   /* versions */
     const char *cure;         /* what to install */
     const io_symbol *symbols;
     int32_t symbol_count;
-} io_library_def;
+    void *table; /* of pointers to fill */
+    const char *(*check)(
+        void); /* what is wrong with a library that was loaded; NULL = nothing can be */
+    bool is_tried, is_loaded; /* the last three are filled in */
+    char reason[320];
+} io_library;
 
-/* Fills the pointers of `table`. The library stays loaded: drivers leave threads behind. False with
- * a line in out_reason that says what is missing and what to do. */
-bool io_library_load(const io_library_def *def, void *table, char *out_reason, size_t reason_size);
+/* The table of the library, which is loaded when it is first asked for, and stays: drivers leave
+ * threads behind. NULL: a line in *out_reason says what is missing and what to do. Thread-safe. */
+const void *io_library_get(io_library *library, const char **out_reason);
 
 /* ---- A lens model from the fields of view that a device or a file tells ---- */
 
@@ -140,6 +160,12 @@ void io_stream_pair_push_color(io_stream_pair *pair, int64_t time_ns);
 /* Fills *out when a frame is ready: its colour is within half a frame's time, or can no longer
  * come. `is_last`: nothing more is waited for. */
 bool io_stream_pair_take(io_stream_pair *pair, bool is_last, rlf_frame *out);
+
+/* A rlf_source's `next`: pumps until a frame is ready, for IO_LIVE_WAIT_MS at most. `pump` waits at
+ * most so long for a picture and pushes it; an error of it is returned. */
+rlf_result io_stream_pair_next(io_stream_pair *pair,
+                               rlf_result (*pump)(void *self, int32_t wait_ms), void *self,
+                               rlf_frame *out);
 
 /* Copies a row of `width` pixels of 3 bytes as RGBA, turned round when `flips`. */
 void io_rgb_row(const uint8_t *rgb, int32_t width, bool flips, uint8_t *out_rgba);

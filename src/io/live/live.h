@@ -110,11 +110,21 @@ typedef struct io_live {
     bool is_stopping, is_done, is_abandoned;
     rlf_result outcome; /* RLF_OK while it runs; RLF_END or an error: it is over */
     char error[LIVE_TEXT];
+    /* Of a direct camera alone; the driver is the thread's between the two. */
+    bool is_open, is_asked, is_answered;
+    rlf_frame answer; /* with outcome and error */
 } io_live;
 
 /* state.c */
-rlf_result live_create(const rlf_backend *backend, const rlf_address *address, io_live **out);
-void live_free(io_live *live);
+/* With the thread started, which frees it itself once it is abandoned. */
+rlf_result live_create(const rlf_backend *backend, const rlf_address *address,
+                       void *(*thread)(void *), io_live **out);
+/* A source's `destroy`. A driver that does not come back keeps its thread. */
+void live_destroy(void *live);
+/* The same, with the error line that is left. */
+rlf_result live_give_up(io_live *live, rlf_result result, const char *line);
+/* What each thread ends with. */
+void live_end_thread(io_live *live);
 /* Adds late, doubled, unpaired and damaged frames. */
 void live_add_counts(const rlf_source_status *from, rlf_source_status *sum);
 /* Waits for news at most until this time; call with the mutex held. */
@@ -125,7 +135,10 @@ void live_tell_silence(io_live *live, const char *reason);
 /* Ends the source: RLF_END, or an error with its line. */
 void live_finish(io_live *live, rlf_result outcome, const char *line);
 
-/* capture.c: the thread. It frees *live itself once it is abandoned. */
+/* capture.c: the thread, and what it does with its device. */
 void *live_capture(void *live);
+/* Checks the cameras and makes the slots, for the first frame ever. */
+rlf_result live_describe(io_live *live);
+void live_close_device(io_live *live);
 
 #endif

@@ -4,9 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#define OPEN_NS (5 * LIVE_SECOND_NS)    /* for the driver to open and to give its first frame */
-#define NEXT_NS (LIVE_SECOND_NS / 20)   /* so that windows and Ctrl-C are looked at meanwhile */
-#define END_NS (LIVE_SECOND_NS * 3 / 2) /* for the driver to come back when the source ends */
+#define OPEN_NS (5 * LIVE_SECOND_NS)  /* for the driver to open and to give its first frame */
+#define NEXT_NS (LIVE_SECOND_NS / 20) /* so that windows and Ctrl-C are looked at meanwhile */
 
 static rlf_result live_next(void *self, rlf_frame *out)
 {
@@ -63,31 +62,6 @@ static rlf_result live_restart(void *self)
     return RLF_OK;
 }
 
-/* A driver that does not come back keeps its thread, which frees the rest should it ever do. */
-static void live_destroy(void *self)
-{
-    io_live *l = self;
-    const int64_t until_ns = rlf_clock_ns() + END_NS;
-    const pthread_t thread = l->thread;
-    pthread_mutex_lock(&l->mutex);
-    l->is_stopping = true;
-    pthread_cond_broadcast(&l->news);
-    while (!l->is_done && rlf_clock_ns() < until_ns) {
-        live_wait(l, until_ns);
-    }
-    const bool is_done = l->is_done;
-    l->is_abandoned = !is_done;
-    if (!is_done) {
-        rlf_log(RLF_LOG_WARNING, "camera %s: its driver does not come back: left alone", l->name);
-        pthread_detach(thread);
-    }
-    pthread_mutex_unlock(&l->mutex);
-    if (is_done) {
-        pthread_join(thread, NULL);
-        live_free(l);
-    }
-}
-
 static rlf_result wait_for_frame(io_live *l)
 {
     const int64_t until_ns = rlf_clock_ns() + OPEN_NS;
@@ -125,20 +99,13 @@ rlf_result io_live_open(const rlf_backend *backend, const rlf_address *address, 
                                                .destroy = live_destroy,
                                                .observe = live_observe};
     io_live *l = NULL;
-    rlf_result result = live_create(backend, address, &l);
+    rlf_result result = live_create(backend, address, live_capture, &l);
     if (result != RLF_OK) {
         return result;
     }
-    if (pthread_create(&l->thread, NULL, live_capture, l) != 0) {
-        live_free(l);
-        return rlf_fail(RLF_ERROR_MEMORY, "%s: no thread to be had for it", address->source);
-    }
     result = wait_for_frame(l);
     if (result != RLF_OK) {
-        char error[LIVE_TEXT];
-        snprintf(error, sizeof(error), "%s", rlf_error_text());
-        live_destroy(l);
-        return rlf_fail(result, "%s", error);
+        return live_give_up(l, result, rlf_error_text());
     }
     memset(out, 0, sizeof(*out));
     out->methods = methods;

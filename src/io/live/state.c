@@ -6,6 +6,8 @@
 #include <string.h>
 #include <time.h>
 
+#define END_NS (LIVE_SECOND_NS * 3 / 2) /* for the driver to come back when the source ends */
+
 static rlf_result create_lock(io_live *l)
 {
     pthread_condattr_t attributes;
@@ -20,7 +22,27 @@ static rlf_result create_lock(io_live *l)
     return is_good ? RLF_OK : RLF_ERROR_MEMORY;
 }
 
-rlf_result live_create(const rlf_backend *backend, const rlf_address *address, io_live **out)
+void live_wait(io_live *l, int64_t until_ns)
+{
+    const struct timespec until = {.tv_sec = (time_t)(until_ns / LIVE_SECOND_NS),
+                                   .tv_nsec = (long)(until_ns % LIVE_SECOND_NS)};
+    pthread_cond_timedwait(&l->news, &l->mutex, &until);
+}
+
+static void free_live(io_live *l)
+{
+    for (int32_t i = 0; i < LIVE_SLOTS; i++) {
+        live_slot_destroy(&l->slots[i]);
+    }
+    live_address_free(&l->address);
+    pthread_cond_destroy(&l->news);
+    pthread_mutex_destroy(&l->mutex);
+    pthread_mutex_destroy(&l->observer_mutex);
+    rlf_free(l);
+}
+
+rlf_result live_create(const rlf_backend *backend, const rlf_address *address,
+                       void *(*thread)(void *), io_live **out)
 {
     io_live *l = rlf_alloc(sizeof(*l));
     if (l == NULL) {
@@ -40,20 +62,57 @@ rlf_result live_create(const rlf_backend *backend, const rlf_address *address, i
     l->given = 2;
     l->is_connected = true;
     l->last_frame_ns = rlf_clock_ns();
+    if (pthread_create(&l->thread, NULL, thread, l) != 0) {
+        free_live(l);
+        return rlf_fail(RLF_ERROR_MEMORY, "%s: no thread to be had for it", address->source);
+    }
     *out = l;
     return RLF_OK;
 }
 
-void live_free(io_live *l)
+/* A driver that does not come back keeps its thread, which frees the rest should it ever do. */
+void live_destroy(void *live)
 {
-    for (int32_t i = 0; i < LIVE_SLOTS; i++) {
-        live_slot_destroy(&l->slots[i]);
+    io_live *l = live;
+    const int64_t until_ns = rlf_clock_ns() + END_NS;
+    const pthread_t thread = l->thread;
+    pthread_mutex_lock(&l->mutex);
+    l->is_stopping = true;
+    pthread_cond_broadcast(&l->news);
+    while (!l->is_done && rlf_clock_ns() < until_ns) {
+        live_wait(l, until_ns);
     }
-    live_address_free(&l->address);
-    pthread_cond_destroy(&l->news);
-    pthread_mutex_destroy(&l->mutex);
-    pthread_mutex_destroy(&l->observer_mutex);
-    rlf_free(l);
+    const bool is_done = l->is_done;
+    l->is_abandoned = !is_done;
+    if (!is_done) {
+        rlf_log(RLF_LOG_WARNING, "camera %s: its driver does not come back: left alone", l->name);
+        pthread_detach(thread);
+    }
+    pthread_mutex_unlock(&l->mutex);
+    if (is_done) {
+        pthread_join(thread, NULL);
+        free_live(l);
+    }
+}
+
+rlf_result live_give_up(io_live *l, rlf_result result, const char *line)
+{
+    char error[LIVE_TEXT];
+    snprintf(error, sizeof(error), "%s", line);
+    live_destroy(l);
+    return rlf_fail(result, "%s", error);
+}
+
+void live_end_thread(io_live *l)
+{
+    pthread_mutex_lock(&l->mutex);
+    l->is_done = true;
+    const bool is_abandoned = l->is_abandoned;
+    pthread_cond_broadcast(&l->news);
+    pthread_mutex_unlock(&l->mutex);
+    if (is_abandoned) {
+        free_live(l);
+    }
 }
 
 void live_add_counts(const rlf_source_status *from, rlf_source_status *sum)
@@ -62,13 +121,6 @@ void live_add_counts(const rlf_source_status *from, rlf_source_status *sum)
     sum->doubled += from->doubled;
     sum->unpaired += from->unpaired;
     sum->damaged += from->damaged;
-}
-
-void live_wait(io_live *l, int64_t until_ns)
-{
-    const struct timespec until = {.tv_sec = (time_t)(until_ns / LIVE_SECOND_NS),
-                                   .tv_nsec = (long)(until_ns % LIVE_SECOND_NS)};
-    pthread_cond_timedwait(&l->news, &l->mutex, &until);
 }
 
 void live_tell_silence(io_live *l, const char *reason)

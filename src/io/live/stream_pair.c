@@ -210,6 +210,26 @@ bool io_stream_pair_take(io_stream_pair *pair, bool is_last, rlf_frame *out)
     return true;
 }
 
+rlf_result io_stream_pair_next(io_stream_pair *pair,
+                               rlf_result (*pump)(void *self, int32_t wait_ms), void *self,
+                               rlf_frame *out)
+{
+    const int64_t end_ns = rlf_clock_ns() + IO_LIVE_WAIT_MS * INT64_C(1000000);
+    for (;;) {
+        if (io_stream_pair_take(pair, false, out)) {
+            return RLF_OK;
+        }
+        const int64_t left_ms = (end_ns - rlf_clock_ns()) / 1000000;
+        if (left_ms <= 0) {
+            return io_stream_pair_take(pair, true, out) ? RLF_OK : RLF_NO_FRAME;
+        }
+        rlf_result result = pump(self, (int32_t)left_ms);
+        if (result < 0) {
+            return result;
+        }
+    }
+}
+
 void io_rgb_row(const uint8_t *rgb, int32_t width, bool flips, uint8_t *out_rgba)
 {
     for (int32_t x = 0; x < width; x++) {

@@ -1,11 +1,30 @@
 /* OpenNI2 devices: finding, opening, choosing modes. */
+#include "io/live/driver.h"
 #include "io/openni2/openni2.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define RATE_WANTED 30
+
+rlf_result openni2_read_wish(const rlf_address *address, openni2_wish *out)
+{
+    *out = (openni2_wish){.color = 1, .aligned = -1, .mirror = -1};
+    if (address->rig != NULL) {
+        out->width = address->rig->depth.width;
+        out->height = address->rig->depth.height;
+        out->color_width = address->rig->has_color ? address->rig->color.width : 0;
+        out->color_height = address->rig->has_color ? address->rig->color.height : 0;
+    }
+    io_mode mode = {out->width, out->height, 0};
+    rlf_result result = io_mode_get(address, "mode", &mode);
+    out->width = mode.width;
+    out->height = mode.height;
+    out->fps = mode.frames_per_second;
+    result = result == RLF_OK ? io_switch_get(address, "color", &out->color) : result;
+    result = result == RLF_OK ? io_switch_get(address, "aligned", &out->aligned) : result;
+    return result == RLF_OK ? io_switch_get(address, "mirror", &out->mirror) : result;
+}
 
 bool openni2_is_test_device(const openni2_info *info)
 {

@@ -7,8 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#define WAIT_MS 100 /* a call of next takes at most this long */
-
 typedef struct camera {
     char source[512]; /* as the user gave it, for error lines */
     openni2_wish wish;
@@ -104,32 +102,20 @@ static rlf_result wait_for_frame(camera *c, int timeout_ms)
     return read_stream(c, index == 0);
 }
 
-static rlf_result fail_gone(camera *c)
+static rlf_result pump(void *self, int32_t wait_ms)
 {
+    camera *c = self;
+    rlf_result result = atomic_load(&c->is_gone) ? RLF_NO_FRAME : wait_for_frame(c, wait_ms);
+    if (!atomic_load(&c->is_gone)) {
+        return result;
+    }
     c->pair.status.is_connected = false;
     return rlf_fail(RLF_ERROR_DEVICE, "%s: the camera is gone: plug it in again", c->source);
 }
 
 static rlf_result next_frame(void *self, rlf_frame *out)
 {
-    camera *c = self;
-    const int64_t end_ns = rlf_clock_ns() + WAIT_MS * INT64_C(1000000);
-    for (;;) {
-        if (atomic_load(&c->is_gone)) {
-            return fail_gone(c);
-        }
-        if (io_stream_pair_take(&c->pair, false, out)) {
-            return RLF_OK;
-        }
-        const int64_t left_ms = (end_ns - rlf_clock_ns()) / 1000000;
-        if (left_ms <= 0) {
-            return io_stream_pair_take(&c->pair, true, out) ? RLF_OK : RLF_NO_FRAME;
-        }
-        rlf_result result = wait_for_frame(c, (int)left_ms);
-        if (result < 0) {
-            return atomic_load(&c->is_gone) ? fail_gone(c) : result;
-        }
-    }
+    return io_stream_pair_next(&((camera *)self)->pair, pump, self, out);
 }
 
 static void status(void *self, rlf_source_status *out)
@@ -198,38 +184,22 @@ static rlf_result open_all(camera *c, const rlf_address *address)
     return result == RLF_OK ? openni2_device_start(address, &c->device) : result;
 }
 
-static void describe(const camera *c, rlf_source_info *out)
-{
-    const openni2_device *d = &c->device;
-    snprintf(out->name, sizeof(out->name), "%.127s", c->source);
-    snprintf(out->device, sizeof(out->device), "OpenNI2: %.30s %.30s%s%.30s", d->info.vendor,
-             d->info.name, d->serial[0] != '\0' ? ", serial " : "", d->serial);
-    out->rig = c->rig;
-    out->frame_count = -1;
-    out->frames_per_second = d->depth.mode.fps;
-    out->is_live = true;
-}
-
 static rlf_result open_camera(const rlf_address *address, rlf_opened *out)
 {
+    static const rlf_source_methods methods = {
+        .next = next_frame, .destroy = destroy, .status = status};
     camera *c = rlf_alloc(sizeof(*c));
     if (c == NULL) {
         return RLF_ERROR_MEMORY;
     }
+    const openni2_device *d = &c->device;
     snprintf(c->source, sizeof(c->source), "%.511s", address->source);
     rlf_result result = openni2_read_wish(address, &c->wish);
-    if (result == RLF_OK) {
-        result = open_all(c, address);
-    }
-    if (result != RLF_OK) {
-        destroy(c);
-        return result;
-    }
-    memset(out, 0, sizeof(*out));
-    out->methods = (rlf_source_methods){.next = next_frame, .destroy = destroy, .status = status};
-    out->self = c;
-    describe(c, &out->info);
-    return RLF_OK;
+    result = result == RLF_OK ? open_all(c, address) : result;
+    io_live_opened(&methods, c, c->source, &c->rig, d->depth.mode.fps, out);
+    snprintf(out->info.device, sizeof(out->info.device), "OpenNI2: %.30s %.30s%s%.30s",
+             d->info.vendor, d->info.name, d->serial[0] != '\0' ? ", serial " : "", d->serial);
+    return io_open_end(result, c, destroy);
 }
 
 static int32_t list(rlf_source_entry *out, int32_t capacity)

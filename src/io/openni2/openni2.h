@@ -61,31 +61,42 @@ typedef struct openni2_callbacks {
     void (*state_changed)(const openni2_info *info, int state, void *cookie);
 } openni2_callbacks;
 
-/* Each returns OPENNI2_OK or an error. Devices and streams are handles of the library's. */
+/* F(result, member, name without oni, parameters). Each returns OPENNI2_OK or an error. Devices and
+ * streams are handles of the library's. */
+#define OPENNI2_FUNCTIONS(F)                                                                       \
+    F(int, initialize, "Initialize", (int version))                                                \
+    F(void, shutdown, "Shutdown", (void))                                                          \
+    F(const char *, error, "GetExtendedError", (void))                                             \
+    F(int, get_devices, "GetDeviceList", (openni2_info * *out, int *out_count))                    \
+    F(int, release_devices, "ReleaseDeviceList", (openni2_info * devices))                         \
+    F(int, add_callbacks, "RegisterDeviceCallbacks",                                               \
+      (openni2_callbacks * callbacks, void *cookie, void **out_handle))                            \
+    F(void, remove_callbacks, "UnregisterDeviceCallbacks", (void *handle))                         \
+    F(int, wait_any, "WaitForAnyStream",                                                           \
+      (void **streams, int count, int *out_index, int timeout_ms))                                 \
+    F(int, device_open, "DeviceOpen", (const char *uri, void **out_device))                        \
+    F(int, device_close, "DeviceClose", (void *device))                                            \
+    F(int, device_info, "DeviceGetInfo", (void *device, openni2_info *out))                        \
+    F(const openni2_sensor *, device_sensor, "DeviceGetSensorInfo", (void *device, int type))      \
+    F(int, device_stream, "DeviceCreateStream", (void *device, int type, void **out_stream))       \
+    F(int, device_set, "DeviceSetProperty",                                                        \
+      (void *device, int property, const void *data, int size))                                    \
+    F(int, device_get, "DeviceGetProperty", (void *device, int property, void *data, int *size))   \
+    F(int, device_can_register, "DeviceIsImageRegistrationModeSupported",                          \
+      (void *device, int mode))                                                                    \
+    F(void, stream_destroy, "StreamDestroy", (void *stream))                                       \
+    F(int, stream_start, "StreamStart", (void *stream))                                            \
+    F(void, stream_stop, "StreamStop", (void *stream))                                             \
+    F(int, stream_read, "StreamReadFrame", (void *stream, openni2_frame **out))                    \
+    F(int, stream_set, "StreamSetProperty",                                                        \
+      (void *stream, int property, const void *data, int size))                                    \
+    F(int, stream_get, "StreamGetProperty", (void *stream, int property, void *data, int *size))   \
+    F(void, frame_release, "FrameRelease", (openni2_frame * frame))
+
 typedef struct openni2_api {
-    int (*initialize)(int version);
-    void (*shutdown)(void);
-    const char *(*error)(void);
-    int (*get_devices)(openni2_info **out, int *out_count);
-    int (*release_devices)(openni2_info *devices);
-    int (*add_callbacks)(openni2_callbacks *callbacks, void *cookie, void **out_handle);
-    void (*remove_callbacks)(void *handle);
-    int (*wait_any)(void **streams, int count, int *out_index, int timeout_ms);
-    int (*device_open)(const char *uri, void **out_device);
-    int (*device_close)(void *device);
-    int (*device_info)(void *device, openni2_info *out);
-    const openni2_sensor *(*device_sensor)(void *device, int type);
-    int (*device_stream)(void *device, int type, void **out_stream);
-    int (*device_set)(void *device, int property, const void *data, int size);
-    int (*device_get)(void *device, int property, void *data, int *size);
-    int (*device_can_register)(void *device, int mode);
-    void (*stream_destroy)(void *stream);
-    int (*stream_start)(void *stream);
-    void (*stream_stop)(void *stream);
-    int (*stream_read)(void *stream, openni2_frame **out);
-    int (*stream_set)(void *stream, int property, const void *data, int size);
-    int (*stream_get)(void *stream, int property, void *data, int *size);
-    void (*frame_release)(openni2_frame *frame);
+#define OPENNI2_MEMBER(result, member, name, parameters) result(*member) parameters;
+    OPENNI2_FUNCTIONS(OPENNI2_MEMBER)
+#undef OPENNI2_MEMBER
 } openni2_api;
 
 /* Why the library cannot be used and what to do, or NULL when it can. */

@@ -2,13 +2,7 @@
 #include "io/live/driver.h"
 #include "io/openni2/openni2.h"
 
-/* A camera writes 0 where it is too near to measure: what it did write is believed. */
-#define DEPTH_MIN_M 0.1
-#define DEPTH_MAX_M 8.0
-#define DEPTH_LIMIT_M 20.0
-
-/* Structured light, as for camera.json: 2 mm at 1 m, 6 mm at 2 m. */
-static const rlf_depth_noise structured_light = {0.0008, 0.0, 0.0012};
+#define DEPTH_LIMIT_M 20.0 /* what a device says beyond this is no depth */
 
 double openni2_units(const openni2_device *device)
 {
@@ -60,17 +54,14 @@ static void warn(const char *source, const openni2_device *device, bool has_colo
 
 rlf_result openni2_make_rig(const rlf_address *address, const openni2_device *device, rlf_rig *out)
 {
-    *out = (rlf_rig){.T_color_depth = rlf_pose_identity(),
-                     .depth_min_m = DEPTH_MIN_M,
-                     .depth_max_m = DEPTH_MAX_M,
-                     .noise = structured_light};
+    *out = rlf_rig_default();
     const bool is_told = cameras_of(device, out);
     if (address->rig == NULL) {
         warn(address->source, device, out->has_color, is_told);
     }
     const double farthest =
         openni2_stream_int(device, &device->depth, OPENNI2_STREAM_MAX, 0) / openni2_units(device);
-    if (farthest > DEPTH_MIN_M && farthest < DEPTH_LIMIT_M) {
+    if (farthest > out->depth_min_m && farthest < DEPTH_LIMIT_M) {
         out->depth_max_m = farthest;
     }
     return io_live_use_rig(address, out);

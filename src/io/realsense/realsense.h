@@ -128,9 +128,6 @@ typedef struct realsense_api {
 #undef IO_REALSENSE_MEMBER
 } realsense_api;
 
-/* The library's functions, or NULL with a line that says why not. Thread-safe. */
-const realsense_api *io_realsense_api(const char **out_reason);
-
 /* When *error is set: sets the error line, frees it and returns `result`; else RLF_OK. */
 rlf_result io_realsense_check(const realsense_api *api, rs2_error **error, rlf_result result,
                               const char *source, const char *cure);

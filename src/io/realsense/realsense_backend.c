@@ -5,10 +5,30 @@
 #include <stdio.h>
 #include <string.h>
 
+static const io_symbol symbols[] = {
+#define SYMBOL(result, name, parameters) {"rs2_" #name, offsetof(realsense_api, name), false},
+#define OPTIONAL(result, name, parameters) {"rs2_" #name, offsetof(realsense_api, name), true},
+    IO_REALSENSE_FUNCTIONS(SYMBOL) IO_REALSENSE_OPTIONAL_FUNCTIONS(OPTIONAL)
+#undef SYMBOL
+#undef OPTIONAL
+};
+/* The library's name carries its minor version, and one package has one version. */
+static const char *const names[] = {"librealsense2.so.2.%d", "librealsense2.so", NULL};
+static realsense_api functions;
+static io_library library = {
+    .variable = "RELIEF_REALSENSE2_LIBRARY",
+    .names = names,
+    .newest = 80,
+    .oldest = 17,
+    .cure = "install Intel's librealsense2, or name its file in RELIEF_REALSENSE2_LIBRARY",
+    .symbols = symbols,
+    .symbol_count = (int32_t)(sizeof(symbols) / sizeof(symbols[0])),
+    .table = &functions};
+
 static const char *realsense_unavailable(void)
 {
     const char *reason;
-    io_realsense_api(&reason);
+    (void)io_library_get(&library, &reason);
     return reason;
 }
 
@@ -60,7 +80,7 @@ static int32_t list_devices(const realsense_api *api, const rs2_device_list *lis
 static int32_t realsense_list(rlf_source_entry *out, int32_t capacity)
 {
     const char *reason;
-    const realsense_api *api = io_realsense_api(&reason);
+    const realsense_api *api = io_library_get(&library, &reason);
     if (api == NULL) {
         return 0;
     }
@@ -175,33 +195,15 @@ static rlf_result start(realsense *r, const rlf_address *address)
     if (result == RLF_OK) {
         result = io_live_use_rig(address, &r->rig);
     }
-    if (result == RLF_OK && r->rig.has_color) {
-        const rlf_camera *c = &r->rig.color;
-        uint8_t *data = rlf_alloc_array((size_t)c->width * (size_t)c->height, 4);
-        r->color = (rlf_image_rgba8){data, c->width, c->height, (ptrdiff_t)c->width * 4};
-        result = data != NULL ? RLF_OK : RLF_ERROR_MEMORY;
-    }
-    return result;
-}
-
-static void describe(const realsense *r, rlf_opened *out)
-{
-    memset(out, 0, sizeof(*out));
-    out->methods = (rlf_source_methods){
-        .next = io_realsense_next, .destroy = realsense_destroy, .status = realsense_status};
-    snprintf(out->info.name, sizeof(out->info.name), "%.127s", r->source);
-    out->info.rig = r->rig;
-    out->info.frame_count = -1;
-    out->info.frames_per_second = r->frames_per_second;
-    out->info.is_live = true;
-    snprintf(out->info.device, sizeof(out->info.device), "librealsense2: %.60s %.40s", r->name,
-             r->serial);
+    return result == RLF_OK ? io_live_make_color(&r->rig, &r->color) : result;
 }
 
 static rlf_result realsense_open(const rlf_address *address, rlf_opened *out)
 {
+    static const rlf_source_methods methods = {
+        .next = io_realsense_next, .destroy = realsense_destroy, .status = realsense_status};
     const char *reason;
-    const realsense_api *api = io_realsense_api(&reason);
+    const realsense_api *api = io_library_get(&library, &reason);
     if (api == NULL) {
         return rlf_fail(RLF_ERROR_UNSUPPORTED, "%s: %s", address->source, reason);
     }
@@ -212,13 +214,10 @@ static rlf_result realsense_open(const rlf_address *address, rlf_opened *out)
     r->api = api;
     snprintf(r->source, sizeof(r->source), "%.255s", address->source);
     rlf_result result = start(r, address);
-    if (result != RLF_OK) {
-        realsense_destroy(r);
-        return result;
-    }
-    describe(r, out);
-    out->self = r;
-    return RLF_OK;
+    io_live_opened(&methods, r, r->source, &r->rig, r->frames_per_second, out);
+    snprintf(out->info.device, sizeof(out->info.device), "librealsense2: %.60s %.40s", r->name,
+             r->serial);
+    return io_open_end(result, r, realsense_destroy);
 }
 
 const rlf_backend io_backend_realsense = {

@@ -59,3 +59,27 @@ double io_realsense_lens(const realsense_api *api, const rs2_intrinsics *in, rlf
     sample_lens(api, in, samples);
     return io_lens_fit(samples, SAMPLE_COUNT, out);
 }
+
+rlf_result io_realsense_check(const realsense_api *api, rs2_error **error, rlf_result result,
+                              const char *source, const char *cure)
+{
+    if (*error == NULL) {
+        return RLF_OK;
+    }
+    const char *message = api->get_error_message(*error);
+    rlf_fail(result, "%s: librealsense2 says \"%.200s\": %s", source,
+             message != NULL ? message : "nothing", cure);
+    api->free_error(*error);
+    *error = NULL;
+    return result;
+}
+
+bool io_realsense_forget(const realsense_api *api, rs2_error **error)
+{
+    const bool had_error = *error != NULL;
+    if (had_error) {
+        api->free_error(*error);
+        *error = NULL;
+    }
+    return had_error;
+}

@@ -7,16 +7,9 @@
 /* A lens that is off by more than this is told. */
 #define LENS_ERROR_TOLD_PX 0.5
 
-/* What RealSense cameras are sold for; each pixel says 0 where it could not measure. */
-#define DEPTH_MIN_M 0.1
-#define DEPTH_MAX_M 8.0
-
 /* Noise of a stereo camera: sigma(z) = z^2 d / (f B), with a disparity noise d that Intel's tuning
  * guide gives as below 0.1 pixel on textured walls. */
 #define DISPARITY_NOISE_PX 0.08
-/* Where the camera tells no baseline: as other depth cameras, see camera.json. */
-static const rlf_depth_noise other_noise = {0.0008, 0.0, 0.0012};
-
 /* Streams to ask for. */
 typedef struct wish {
     io_mode depth, color; /* 0 = any */
@@ -192,7 +185,6 @@ static rlf_result read_cameras(realsense *r, const streams *s)
     rlf_result result = read_camera(r, s->depth, "depth", &r->rig.depth);
     r->color_encoding = s->color != NULL ? encoding_of(s->color_format) : NULL;
     r->rig.has_color = r->color_encoding != NULL;
-    r->rig.T_color_depth = rlf_pose_identity();
     if (result == RLF_OK && s->color != NULL && !r->rig.has_color) {
         rlf_log(RLF_LOG_WARNING,
                 "%s: colour comes in librealsense2's format %d, which is not read: there is no "
@@ -222,7 +214,6 @@ static bool read_sensor(realsense *r, rs2_sensor *sensor)
     /* 0.001 in single precision is meant to be a thousandth. */
     const double units = 1.0 / scale;
     r->units_per_metre = fabs(units - round(units)) < 1e-6 * units ? round(units) : units;
-    r->rig.noise = other_noise;
     if (r->api->supports_option(sensor, RS2_OPTION_STEREO_BASELINE, &error) != 0 && error == NULL) {
         const double base_m =
             fabs((double)r->api->get_option(sensor, RS2_OPTION_STEREO_BASELINE, &error)) / 1000.0;
@@ -273,14 +264,13 @@ static rlf_result read_rig(realsense *r, rs2_pipeline_profile *profile)
     }
     r->frames_per_second = s.depth_rate;
     r->count.interval_ns = s.depth_rate > 0 ? 1000000000 / s.depth_rate : 0;
-    r->rig.depth_min_m = DEPTH_MIN_M;
-    r->rig.depth_max_m = DEPTH_MAX_M;
     return result == RLF_OK ? read_sensors(r) : result;
 }
 
 rlf_result io_realsense_start(realsense *r, const io_mode *depth, const io_mode *color)
 {
     rs2_error *error = NULL;
+    r->rig = rlf_rig_default(); /* its noise where the camera tells no baseline */
     r->pipeline = r->api->create_pipeline(r->context, &error);
     rlf_result result =
         io_realsense_check(r->api, &error, RLF_ERROR_DEVICE, r->source, "plug it in again");

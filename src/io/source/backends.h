@@ -35,6 +35,16 @@ const char *io_backend_plugin_path(int32_t index);
 /* Makes a source of its parts; they are destroyed when that fails. */
 rlf_result io_source_create(const rlf_opened *opened, rlf_source **out);
 
+/* How a back end's open ends: what it made is destroyed when it failed. `self` NULL = nothing was
+ * made. */
+static inline rlf_result io_open_end(rlf_result result, void *self, void (*destroy)(void *))
+{
+    if (result != RLF_OK && self != NULL) {
+        destroy(self);
+    }
+    return result;
+}
+
 /* ---- Which back end opens a SOURCE ---- */
 
 /* By scheme, else by the file name's extension, else by what the back ends recognise. Fails with a
