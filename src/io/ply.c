@@ -1,115 +1,103 @@
-/* Surfaces as binary PLY (Turk 1994): points with normals, and triangles. */
+/* Meshes and points as binary PLY (Turk 1994). */
 #include "relief/io.h"
 #include "io/file.h"
 #include "io/little.h"
+#include "io/map/mesh_file.h"
 
 #include <string.h>
 
 #define CHUNK 512 /* vertices or faces per write */
 
-typedef struct ply_writer {
-    const rlf_surface *surface;
-    int32_t label; /* of the points; 0 = all */
-    const uint32_t *indices;
-    size_t triangle_count; /* in `indices` */
-    int32_t *vertex_of;    /* pixel to vertex plus one; 0 = no point there */
-    io_out_file file;
-} ply_writer;
-
-static int32_t number_vertices(ply_writer *w)
+static rlf_result write_vertices(io_out_file *file, const rlf_map_mesh *mesh)
 {
-    int32_t pixels = w->surface->width * w->surface->height;
-    int32_t count = 0;
-    for (int32_t i = 0; i < pixels; i++) {
-        bool own = w->label == 0 || w->surface->label[i] == w->label;
-        w->vertex_of[i] = own && w->surface->depth[i] > 0.0F ? ++count : 0;
-    }
-    return count;
-}
-
-static bool is_whole(const ply_writer *w, size_t triangle)
-{
-    const uint32_t *t = &w->indices[triangle * 3];
-    return w->vertex_of[t[0]] > 0 && w->vertex_of[t[1]] > 0 && w->vertex_of[t[2]] > 0;
-}
-
-static size_t count_faces(const ply_writer *w)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < w->triangle_count; i++) {
-        count += is_whole(w, i) ? 1 : 0;
-    }
-    return count;
-}
-
-static rlf_result write_header(ply_writer *w, int32_t vertex_count, size_t face_count)
-{
-    char text[512];
-    int length = snprintf(text, sizeof(text),
-                          "ply\nformat binary_little_endian 1.0\n"
-                          "comment camera frame, metres: x right, y down, z forward\n"
-                          "element vertex %d\n"
-                          "property float x\nproperty float y\nproperty float z\n"
-                          "property float nx\nproperty float ny\nproperty float nz\n",
-                          (int)vertex_count);
-    if (w->triangle_count > 0) {
-        length +=
-            snprintf(text + length, sizeof(text) - (size_t)length,
-                     "element face %zu\nproperty list uchar int vertex_indices\n", face_count);
-    }
-    length += snprintf(text + length, sizeof(text) - (size_t)length, "end_header\n");
-    return io_out_write(&w->file, text, (size_t)length);
-}
-
-static rlf_result write_vertices(ply_writer *w)
-{
-    const rlf_surface *s = w->surface;
-    int32_t pixels = s->width * s->height;
-    float chunk[CHUNK][6];
-    size_t filled = 0;
-    for (int32_t i = 0; i < pixels; i++) {
-        if (w->vertex_of[i] > 0) {
-            rlf_vec3 p = rlf_surface_point(s, i);
-            float values[6] = {(float)p.x,     (float)p.y,     (float)p.z,
-                               s->normal_x[i], s->normal_y[i], s->normal_z[i]};
-            io_little(values, 6, sizeof(values[0]));
-            memcpy(chunk[filled++], values, sizeof(values));
+    enum { PLACE = 6 * sizeof(float), VERTEX = PLACE + 3 };
+    uint8_t chunk[CHUNK * VERTEX];
+    const size_t size = mesh->rgba != NULL ? VERTEX : PLACE;
+    rlf_result result = RLF_OK;
+    for (size_t i = 0, filled = 0; i < mesh->vertex_count && result == RLF_OK; i++) {
+        uint8_t *out = &chunk[filled++ * size];
+        memcpy(out, &mesh->position[3 * i], 3 * sizeof(float));
+        memcpy(out + 3 * sizeof(float), &mesh->normal[3 * i], 3 * sizeof(float));
+        io_little(out, 6, sizeof(float));
+        if (mesh->rgba != NULL) {
+            memcpy(out + PLACE, &mesh->rgba[4 * i], 3);
         }
-        if (filled == CHUNK || i + 1 == pixels) {
-            rlf_result result = io_out_write(&w->file, chunk, filled * sizeof(chunk[0]));
-            if (result != RLF_OK) {
-                return result;
-            }
+        if (filled == CHUNK || i + 1 == mesh->vertex_count) {
+            result = io_out_write(file, chunk, filled * size);
             filled = 0;
         }
     }
-    return RLF_OK;
+    return result;
 }
 
-static rlf_result write_faces(ply_writer *w)
+static rlf_result write_faces(io_out_file *file, const rlf_map_mesh *mesh)
 {
-    enum { FACE_SIZE = 13 }; /* a count byte and three integers, without padding */
-    uint8_t chunk[CHUNK * FACE_SIZE];
-    size_t filled = 0;
-    for (size_t i = 0; i < w->triangle_count; i++) {
-        if (is_whole(w, i)) {
-            const uint32_t *t = &w->indices[i * 3];
-            int32_t face[3] = {w->vertex_of[t[0]] - 1, w->vertex_of[t[1]] - 1,
-                               w->vertex_of[t[2]] - 1};
-            io_little(face, 3, sizeof(face[0]));
-            chunk[filled * FACE_SIZE] = 3;
-            memcpy(&chunk[filled * FACE_SIZE + 1], face, sizeof(face));
-            filled++;
-        }
-        if (filled == CHUNK || i + 1 == w->triangle_count) {
-            rlf_result result = io_out_write(&w->file, chunk, filled * FACE_SIZE);
-            if (result != RLF_OK) {
-                return result;
-            }
+    enum { FACE = 13 }; /* a count byte and three integers, without padding */
+    uint8_t chunk[CHUNK * FACE];
+    rlf_result result = RLF_OK;
+    for (size_t i = 0, filled = 0; i < mesh->triangle_count && result == RLF_OK; i++) {
+        uint8_t *out = &chunk[filled++ * FACE];
+        out[0] = 3;
+        memcpy(out + 1, &mesh->index[3 * i], 3 * sizeof(uint32_t));
+        io_little(out + 1, 3, sizeof(uint32_t));
+        if (filled == CHUNK || i + 1 == mesh->triangle_count) {
+            result = io_out_write(file, chunk, filled * FACE);
             filled = 0;
         }
     }
-    return RLF_OK;
+    return result;
+}
+
+rlf_result io_mesh_write_ply(io_out_file *file, const rlf_map_mesh *mesh, const char *frame,
+                             bool has_faces)
+{
+    char text[640], faces[128] = "";
+    const char *colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+    snprintf(faces, sizeof(faces), "element face %zu\nproperty list uchar int vertex_indices\n",
+             mesh->triangle_count);
+    const int length = snprintf(text, sizeof(text),
+                                "ply\nformat binary_little_endian 1.0\ncomment %s\n"
+                                "element vertex %zu\n"
+                                "property float x\nproperty float y\nproperty float z\n"
+                                "property float nx\nproperty float ny\nproperty float nz\n%s%s"
+                                "end_header\n",
+                                frame, mesh->vertex_count, mesh->rgba != NULL ? colors : "",
+                                has_faces ? faces : "");
+    rlf_result result = io_out_write(file, text, (size_t)length);
+    result = result == RLF_OK ? write_vertices(file, mesh) : result;
+    return result == RLF_OK ? write_faces(file, mesh) : result;
+}
+
+/* ---- surfaces ------------------------------------------------------------------------------- */
+
+/* Points of a region, 0 = of all. `vertex_of`: of each pixel, plus one; 0 = it has no point. */
+static void gather_points(const rlf_surface *s, int32_t label, uint32_t *vertex_of, rlf_map_mesh *m)
+{
+    for (int32_t i = 0; i < s->width * s->height; i++) {
+        if (!(s->depth[i] > 0.0F) || (label != 0 && s->label[i] != label)) {
+            continue;
+        }
+        const rlf_vec3 p = rlf_surface_point(s, i);
+        const float place[3] = {(float)p.x, (float)p.y, (float)p.z};
+        const float normal[3] = {s->normal_x[i], s->normal_y[i], s->normal_z[i]};
+        memcpy(&m->position[3 * m->vertex_count], place, sizeof(place));
+        memcpy(&m->normal[3 * m->vertex_count], normal, sizeof(normal));
+        vertex_of[i] = (uint32_t)++m->vertex_count;
+    }
+}
+
+/* Triangles of which all corners are there. */
+static void gather_triangles(const uint32_t *indices, size_t count, const uint32_t *vertex_of,
+                             rlf_map_mesh *m)
+{
+    for (size_t i = 0; i < count; i += 3) {
+        const uint32_t *t = &indices[i];
+        const uint32_t corners[3] = {vertex_of[t[0]], vertex_of[t[1]], vertex_of[t[2]]};
+        for (int k = 0; k < 3; k++) {
+            m->index[3 * m->triangle_count + (size_t)k] = corners[k] - 1;
+        }
+        m->triangle_count += corners[0] > 0 && corners[1] > 0 && corners[2] > 0 ? 1 : 0;
+    }
 }
 
 static bool are_indices_valid(const rlf_surface *surface, const uint32_t *indices, size_t count)
@@ -123,24 +111,6 @@ static bool are_indices_valid(const rlf_surface *surface, const uint32_t *indice
     return count % 3 == 0;
 }
 
-static rlf_result write_ply(ply_writer *w, const char *path)
-{
-    int32_t vertex_count = number_vertices(w);
-    size_t face_count = count_faces(w);
-    rlf_result result = io_out_open(&w->file, path);
-    if (result != RLF_OK) {
-        return result;
-    }
-    result = write_header(w, vertex_count, face_count);
-    if (result == RLF_OK) {
-        result = write_vertices(w);
-    }
-    if (result == RLF_OK) {
-        result = write_faces(w);
-    }
-    return io_out_close(&w->file, result);
-}
-
 static rlf_result write_points(const char *path, const rlf_surface *surface, int32_t label,
                                const uint32_t *indices, size_t index_count)
 {
@@ -149,15 +119,25 @@ static rlf_result write_points(const char *path, const rlf_surface *surface, int
         !RLF_ASSERT(are_indices_valid(surface, indices, index_count))) {
         return RLF_ERROR_INVALID;
     }
-    ply_writer w = {
-        .surface = surface, .label = label, .indices = indices, .triangle_count = index_count / 3};
-    w.vertex_of =
-        rlf_alloc_array((size_t)surface->width * (size_t)surface->height, sizeof(w.vertex_of[0]));
-    if (w.vertex_of == NULL) {
-        return RLF_ERROR_MEMORY;
+    const size_t pixels = (size_t)surface->width * (size_t)surface->height;
+    uint32_t *vertex_of = rlf_alloc_array(pixels, sizeof(vertex_of[0]));
+    rlf_map_mesh mesh = {.position = rlf_alloc_array(pixels, 3 * sizeof(float)),
+                         .normal = rlf_alloc_array(pixels, 3 * sizeof(float)),
+                         .index = rlf_alloc_array(index_count + 3, sizeof(uint32_t))};
+    rlf_result result = RLF_ERROR_MEMORY;
+    if (vertex_of != NULL && mesh.position != NULL && mesh.normal != NULL && mesh.index != NULL) {
+        io_out_file file;
+        gather_points(surface, label, vertex_of, &mesh);
+        gather_triangles(indices, index_count, vertex_of, &mesh);
+        result = io_out_open(&file, path);
+        if (result == RLF_OK) {
+            result = io_mesh_write_ply(
+                &file, &mesh, "camera frame, metres: x right, y down, z forward", index_count > 0);
+            result = io_out_close(&file, result);
+        }
     }
-    rlf_result result = write_ply(&w, path);
-    rlf_free(w.vertex_of);
+    rlf_free(vertex_of);
+    rlf_map_mesh_destroy(&mesh);
     return result;
 }
 

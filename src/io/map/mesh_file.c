@@ -1,76 +1,13 @@
 /* Meshes of rooms as PLY (Turk 1994) and OBJ. */
 #include "io/map/mesh_file.h"
 #include "relief/io.h"
-#include "io/little.h"
 
 #include <string.h>
 
-#define CHUNK 512 /* vertices or faces per write */
-
-static rlf_result write_ply_vertices(io_out_file *file, const rlf_map_mesh *mesh)
-{
-    enum { PLACE = 6 * sizeof(float), VERTEX = PLACE + 3 };
-    uint8_t chunk[CHUNK * VERTEX];
-    const size_t size = mesh->rgba != NULL ? VERTEX : PLACE;
-    size_t filled = 0;
-    for (size_t i = 0; i < mesh->vertex_count; i++) {
-        uint8_t *out = &chunk[filled++ * size];
-        memcpy(out, &mesh->position[3 * i], 3 * sizeof(float));
-        memcpy(out + 3 * sizeof(float), &mesh->normal[3 * i], 3 * sizeof(float));
-        io_little(out, 6, sizeof(float));
-        if (mesh->rgba != NULL) {
-            memcpy(out + PLACE, &mesh->rgba[4 * i], 3);
-        }
-        if (filled == CHUNK || i + 1 == mesh->vertex_count) {
-            rlf_result result = io_out_write(file, chunk, filled * size);
-            if (result != RLF_OK) {
-                return result;
-            }
-            filled = 0;
-        }
-    }
-    return RLF_OK;
-}
-
-static rlf_result write_ply_faces(io_out_file *file, const rlf_map_mesh *mesh)
-{
-    enum { FACE = 13 }; /* a count byte and three integers, without padding */
-    uint8_t chunk[CHUNK * FACE];
-    size_t filled = 0;
-    for (size_t i = 0; i < mesh->triangle_count; i++) {
-        chunk[filled * FACE] = 3;
-        memcpy(&chunk[filled * FACE + 1], &mesh->index[3 * i], 3 * sizeof(uint32_t));
-        io_little(&chunk[filled * FACE + 1], 3, sizeof(uint32_t));
-        filled++;
-        if (filled == CHUNK || i + 1 == mesh->triangle_count) {
-            rlf_result result = io_out_write(file, chunk, filled * FACE);
-            if (result != RLF_OK) {
-                return result;
-            }
-            filled = 0;
-        }
-    }
-    return RLF_OK;
-}
-
 static rlf_result write_ply(io_out_file *file, const rlf_map_mesh *mesh)
 {
-    char text[640];
-    const char *colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-    const int length =
-        snprintf(text, sizeof(text),
-                 "ply\nformat binary_little_endian 1.0\n"
-                 "comment world frame, metres: x right, y down, z forward of the first camera\n"
-                 "element vertex %zu\n"
-                 "property float x\nproperty float y\nproperty float z\n"
-                 "property float nx\nproperty float ny\nproperty float nz\n%s"
-                 "element face %zu\nproperty list uchar int vertex_indices\nend_header\n",
-                 mesh->vertex_count, mesh->rgba != NULL ? colors : "", mesh->triangle_count);
-    rlf_result result = io_out_write(file, text, (size_t)length);
-    if (result == RLF_OK) {
-        result = write_ply_vertices(file, mesh);
-    }
-    return result == RLF_OK ? write_ply_faces(file, mesh) : result;
+    return io_mesh_write_ply(
+        file, mesh, "world frame, metres: x right, y down, z forward of the first camera", true);
 }
 
 static int obj_vertex(const rlf_map_mesh *mesh, size_t i, char *text, size_t size)
@@ -141,9 +78,7 @@ rlf_result rlf_map_mesh_write(const char *path, const rlf_map_mesh *mesh)
     }
     rlf_result result = rlf_map_mesh_check_name(path);
     io_out_file file;
-    if (result == RLF_OK) {
-        result = io_out_open(&file, path);
-    }
+    result = result == RLF_OK ? io_out_open(&file, path) : result;
     if (result != RLF_OK) {
         return result;
     }

@@ -109,9 +109,7 @@ static rlf_result write_head(io_out_file *file, char *json, size_t length, size_
     io_little(head, 5, sizeof(head[0]));
     io_little(next, 2, sizeof(next[0]));
     rlf_result result = io_out_write(file, head, sizeof(head));
-    if (result == RLF_OK) {
-        result = io_out_write(file, json, length);
-    }
+    result = result == RLF_OK ? io_out_write(file, json, length) : result;
     return result == RLF_OK ? io_out_write(file, next, sizeof(next)) : result;
 }
 
@@ -121,12 +119,8 @@ rlf_result io_mesh_write_glb(io_out_file *file, const rlf_map_mesh *mesh)
     const glb_sizes s = sizes_of(mesh);
     const int length = write_json(mesh, &s, json, sizeof(json) - 4);
     rlf_result result = write_head(file, json, (size_t)length, s.all);
-    if (result == RLF_OK) {
-        result = write_turned(file, mesh->position, mesh->vertex_count);
-    }
-    if (result == RLF_OK) {
-        result = write_turned(file, mesh->normal, mesh->vertex_count);
-    }
+    result = result == RLF_OK ? write_turned(file, mesh->position, mesh->vertex_count) : result;
+    result = result == RLF_OK ? write_turned(file, mesh->normal, mesh->vertex_count) : result;
     if (result == RLF_OK && s.color > 0) {
         result = io_out_write(file, mesh->rgba, s.color);
     }
