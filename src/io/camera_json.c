@@ -78,9 +78,7 @@ static rlf_result read_camera(const io_json_object *object, rlf_camera *camera)
     const io_json_field width = {"width", SIZE_MEANING, 1, RLF_IMAGE_SIZE_MAX, true};
     const io_json_field height = {"height", SIZE_MEANING, 1, RLF_IMAGE_SIZE_MAX, true};
     rlf_result result = io_json_get_integer(object, &width, &camera->width);
-    if (result == RLF_OK) {
-        result = io_json_get_integer(object, &height, &camera->height);
-    }
+    result = result == RLF_OK ? io_json_get_integer(object, &height, &camera->height) : result;
     if (result != RLF_OK) {
         return result;
     }
@@ -129,22 +127,12 @@ static rlf_result read_depth(const io_json_object *top, rlf_rig *rig, double *ou
         "noise", "three numbers [c0, c1, c2]: sigma = c0 + c1 z + c2 z^2 metres", -1, 1, false};
     io_json_object depth;
     rlf_result result = io_json_get_object(top, &field, &depth);
-    if (result == RLF_OK) {
-        result = read_camera(&depth, &rig->depth);
-    }
-    if (result == RLF_OK) {
-        result = io_json_get_number(&depth, &units, out_units);
-    }
-    if (result == RLF_OK) {
-        result = io_json_get_number(&depth, &range[0], &rig->depth_min_m);
-    }
-    if (result == RLF_OK) {
-        result = io_json_get_number(&depth, &range[1], &rig->depth_max_m);
-    }
+    result = result == RLF_OK ? read_camera(&depth, &rig->depth) : result;
+    result = result == RLF_OK ? io_json_get_number(&depth, &units, out_units) : result;
+    result = result == RLF_OK ? io_json_get_number(&depth, &range[0], &rig->depth_min_m) : result;
+    result = result == RLF_OK ? io_json_get_number(&depth, &range[1], &rig->depth_max_m) : result;
     double c[3] = {rig->noise.c0, rig->noise.c1, rig->noise.c2};
-    if (result == RLF_OK) {
-        result = io_json_get_numbers(&depth, &noise, c, 3);
-    }
+    result = result == RLF_OK ? io_json_get_numbers(&depth, &noise, c, 3) : result;
     if (result != RLF_OK) {
         return result;
     }
@@ -264,12 +252,8 @@ rlf_result io_rig_read_motion(const io_json_object *top, rlf_rig *rig)
     }
     double t[3];
     result = read_rotation(&object, &rig->T_color_depth.q);
-    if (result == RLF_OK) {
-        result = read_quaternion(&object, &rig->T_color_depth.q);
-    }
-    if (result == RLF_OK) {
-        result = io_json_get_numbers(&object, &translation, t, 3);
-    }
+    result = result == RLF_OK ? read_quaternion(&object, &rig->T_color_depth.q) : result;
+    result = result == RLF_OK ? io_json_get_numbers(&object, &translation, t, 3) : result;
     if (result == RLF_OK) {
         rig->T_color_depth.p = rlf_vec3_make(t[0], t[1], t[2]);
         warn_unknown(&object, known, sizeof(known) / sizeof(known[0]));
@@ -283,12 +267,8 @@ rlf_result io_rig_from_json(const io_json_object *top, rlf_rig *out, double *out
     rlf_rig rig = rlf_rig_default();
     double units = 0.0;
     rlf_result result = read_depth(top, &rig, &units);
-    if (result == RLF_OK) {
-        result = read_color(top, &rig);
-    }
-    if (result == RLF_OK) {
-        result = io_rig_read_motion(top, &rig);
-    }
+    result = result == RLF_OK ? read_color(top, &rig) : result;
+    result = result == RLF_OK ? io_rig_read_motion(top, &rig) : result;
     if (result == RLF_OK) {
         warn_unknown(top, known, sizeof(known) / sizeof(known[0]));
         *out = rig;
@@ -307,4 +287,39 @@ rlf_result io_rig_parse(const io_bytes *file, rlf_rig *out, double *out_units_pe
     }
     json_decref(document);
     return result;
+}
+
+/* ---- windows and binning ----------------------------------------------------------------- */
+
+/* One direction. Centres of pixels are whole numbers, so the first pixel of n joined ones begins at
+ * -0.5 and their common centre is at (n - 1) / 2. */
+static bool cut(uint32_t begin, uint32_t length, uint32_t binning, int32_t *size, double *focal,
+                double *centre)
+{
+    const uint32_t whole = *size > 0 ? (uint32_t)*size : 0;
+    const uint32_t kept = length > 0 ? length : whole;
+    const uint32_t joined = binning > 0 ? binning : 1;
+    if (begin > whole || kept > whole - begin || kept / joined == 0) {
+        return false;
+    }
+    *size = (int32_t)(kept / joined);
+    if (joined > 1 || begin > 0) {
+        *focal /= joined;
+        *centre = (*centre - begin + 0.5) / joined - 0.5;
+    }
+    return true;
+}
+
+bool io_camera_window_apply(const io_camera_window *window, rlf_camera *camera)
+{
+    const bool is_part = window->width > 0 || window->height > 0;
+    const uint32_t x = is_part ? window->x : 0;
+    const uint32_t y = is_part ? window->y : 0;
+    rlf_camera c = *camera;
+    if (!cut(x, window->width, window->binning_x, &c.width, &c.fx, &c.cx) ||
+        !cut(y, window->height, window->binning_y, &c.height, &c.fy, &c.cy)) {
+        return false;
+    }
+    *camera = c;
+    return true;
 }

@@ -81,9 +81,7 @@ static rlf_result open_one(io_out_file *file, const char *folder, const char *na
 {
     char path[IO_PATH_MAX];
     rlf_result result = io_path_join(folder, name, path);
-    if (result == RLF_OK) {
-        result = io_out_open(file, path);
-    }
+    result = result == RLF_OK ? io_out_open(file, path) : result;
     return result == RLF_OK ? io_out_write(file, header, strlen(header)) : result;
 }
 
@@ -305,15 +303,9 @@ rlf_result rlf_csv_log_write(rlf_csv_log *log, const rlf_pipeline_output *output
         return RLF_ERROR_INVALID;
     }
     rlf_result result = write_frame(log, output);
-    if (result == RLF_OK) {
-        result = write_bodies(log, output);
-    }
-    if (result == RLF_OK) {
-        result = write_contacts(log, output);
-    }
-    if (result == RLF_OK) {
-        result = write_hands(log, output);
-    }
+    result = result == RLF_OK ? write_bodies(log, output) : result;
+    result = result == RLF_OK ? write_contacts(log, output) : result;
+    result = result == RLF_OK ? write_hands(log, output) : result;
     return result == RLF_OK ? write_trajectory(log, output) : result;
 }
 

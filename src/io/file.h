@@ -56,6 +56,12 @@ rlf_result io_file_read_bytes(const io_file *file, int64_t position, size_t size
 rlf_result io_file_read(const char *path, size_t limit, const char *cure, io_buffer *buffer,
                         io_bytes *out);
 
+/* Whether there is anything of that name, and whether that is a folder. */
+bool io_path_exists(const char *path);
+bool io_path_is_folder(const char *path);
+/* Whether the folder holds anything of that name. */
+bool io_folder_has(const char *folder, const char *name);
+
 /* folder/name, or name alone when it is absolute. */
 rlf_result io_path_join(const char *folder, const char *name, char out[IO_PATH_MAX]);
 

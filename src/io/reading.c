@@ -123,8 +123,7 @@ void io_reading_end_folder(io_reading *folder)
     *folder = (io_reading){0};
 }
 
-/* ---- what is asked -----------------------------------------------------------------------------
- */
+/* ---- what is asked -------------------------------------------------------------------------- */
 
 /* Of the kinds that a clip consists of; others may lie beside it. */
 static bool is_of_clip(const char *path)

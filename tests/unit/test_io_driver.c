@@ -1,6 +1,5 @@
 /* What the live back ends share. */
 #include "io/live/driver.h"
-#include "io/live/least_squares.h"
 #include "test.h"
 
 #include <math.h>

@@ -136,9 +136,7 @@ static rlf_result load(const char *path, part *out)
                                      "write the camera's intrinsics there, docs/formats.md shows "
                                      "how",
                                      &buffer, &file);
-    if (result == RLF_OK) {
-        result = parse(&file, out);
-    }
+    result = result == RLF_OK ? parse(&file, out) : result;
     io_buffer_free(&buffer);
     return result;
 }

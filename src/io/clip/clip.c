@@ -327,12 +327,8 @@ rlf_result io_clip_open(const io_clip_def *def, rlf_opened *out)
         return rlf_fail(RLF_ERROR_FORMAT, "%s: holds no depth pictures", def->name);
     }
     rlf_result result = check_rig(def);
-    if (result == RLF_OK) {
-        result = check_times(def->name, "depth", &def->depth);
-    }
-    if (result == RLF_OK) {
-        result = check_times(def->name, "colour", &def->color);
-    }
+    result = result == RLF_OK ? check_times(def->name, "depth", &def->depth) : result;
+    result = result == RLF_OK ? check_times(def->name, "colour", &def->color) : result;
     if (result != RLF_OK) {
         return result;
     }
@@ -349,9 +345,7 @@ rlf_result io_clip_open(const io_clip_def *def, rlf_opened *out)
     c->is_continued = true;
     int64_t interval_ns = 0;
     result = allocate(c);
-    if (result == RLF_OK) {
-        result = io_time_interval(&def->depth, &interval_ns);
-    }
+    result = result == RLF_OK ? io_time_interval(&def->depth, &interval_ns) : result;
     if (result != RLF_OK) {
         free_clip(c);
         return result;

@@ -5,7 +5,7 @@
 #include "io/clip/clip.h"
 #include "io/picture/picture.h"
 #include "io/file.h"
-#include "io/folder/origin.h"
+#include "io/folder/layout.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -127,9 +127,7 @@ static rlf_result add_file(folder_sink *s, text_list *list, const char *name, in
 {
     char path[IO_PATH_MAX];
     rlf_result result = io_path_join(s->path, name, path);
-    if (result == RLF_OK) {
-        result = rlf_file_write(path, s->file.data, s->file.size);
-    }
+    result = result == RLF_OK ? rlf_file_write(path, s->file.data, s->file.size) : result;
     if (result != RLF_OK) {
         return result;
     }
@@ -159,9 +157,7 @@ static rlf_result add_color(folder_sink *s, const rlf_frame *frame)
         const io_png_def def = {name, c->data, c->width, c->height, c->stride, IO_PNG_RGB, LEVEL};
         result = io_png_encode(&def, &s->file);
     }
-    if (result == RLF_OK) {
-        result = add_file(s, &s->color_list, name, time_ns);
-    }
+    result = result == RLF_OK ? add_file(s, &s->color_list, name, time_ns) : result;
     s->last_color_ns = time_ns;
     s->colors += result == RLF_OK ? 1 : 0;
     return result;
@@ -215,13 +211,9 @@ static rlf_result folder_add(void *self, const rlf_frame *frame)
                             IO_PNG_GREY_U16,
                             LEVEL};
     result = frame->has_pose ? add_pose(s, frame) : RLF_OK;
-    if (result == RLF_OK) {
-        result = add_notes(s, frame);
-    }
+    result = result == RLF_OK ? add_notes(s, frame) : result;
     s->file.size = 0;
-    if (result == RLF_OK) {
-        result = io_png_encode(&def, &s->file);
-    }
+    result = result == RLF_OK ? io_png_encode(&def, &s->file) : result;
     if (result == RLF_OK) { /* last: a frame that is listed is whole */
         result = add_file(s, &s->depth_list, name, frame->time_ns);
     }
@@ -280,12 +272,8 @@ static void remove_old(const folder_sink *s)
 static rlf_result open_all(folder_sink *s)
 {
     rlf_result result = rlf_make_folder(s->path);
-    if (result == RLF_OK) {
-        result = make_folders(s);
-    }
-    if (result == RLF_OK) {
-        result = open_list(s, "depth.txt", &s->depth_list);
-    }
+    result = result == RLF_OK ? make_folders(s) : result;
+    result = result == RLF_OK ? open_list(s, "depth.txt", &s->depth_list) : result;
     if (result == RLF_OK && s->rig.has_color) {
         result = open_list(s, "rgb.txt", &s->color_list);
     }

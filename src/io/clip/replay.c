@@ -126,9 +126,7 @@ static rlf_result read_on(replay *r, rlf_frame *out)
             return result;
         }
         const int64_t index = r->position++;
-        if (result == RLF_OK) {
-            result = renumber(r, out);
-        }
+        result = result == RLF_OK ? renumber(r, out) : result;
         if (result != RLF_OK || !is_dropped(r, index)) {
             r->frames_in++;
             return result;

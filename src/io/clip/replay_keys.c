@@ -1,7 +1,6 @@
 /* The keys of playing, read. */
 #include "io/file.h"
 #include "io/source/address.h"
-#include "io/source/address.h"
 #include "io/clip/clip.h"
 
 #include <string.h>

@@ -1,7 +1,7 @@
 /* associations.txt: depth and colour pictures in pairs. Each line is cut into its two halves, and
  * these are read as the two lists that they are. */
 #include "io/folder/lists.h"
-#include "io/folder/origin.h"
+#include "io/folder/layout.h"
 
 #include <string.h>
 

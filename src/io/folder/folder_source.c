@@ -1,8 +1,6 @@
 /* Frames from a folder of pictures, in the TUM layout with camera.json or in those of data sets. */
-#define _POSIX_C_SOURCE 200809L
 #include "relief/io.h"
 #include "io/folder/layout.h"
-#include "io/folder/origin.h"
 #include "io/camera_json.h"
 #include "io/picture/picture.h"
 #include "io/file.h"
@@ -12,7 +10,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 typedef struct folder {
     char path[IO_PATH_MAX];
@@ -101,13 +98,6 @@ static rlf_result open_depth(folder *self)
                         self->path, self->layout.depth_list_name);
     }
     return io_layout_read_poses(self->path, &self->layout);
-}
-
-static bool exists(const folder *self, const char *name)
-{
-    char path[IO_PATH_MAX];
-    struct stat status;
-    return io_path_join(self->path, name, path) == RLF_OK && stat(path, &status) == 0;
 }
 
 /* The pictures and the colour camera are both optional; one without the other gives no colour. */
@@ -245,7 +235,7 @@ static rlf_result load_rig(const rlf_address *address, folder *self)
         self->units_per_metre = address->units_per_metre;
         return RLF_OK;
     }
-    if (!exists(self, "camera.json")) {
+    if (!io_folder_has(self->path, "camera.json")) {
         return make_rig(self);
     }
     char camera_path[IO_PATH_MAX];
@@ -280,9 +270,7 @@ static rlf_result open_clip(folder *self, rlf_opened *out)
 static rlf_result open_all(const rlf_address *address, folder *self, rlf_opened *out)
 {
     rlf_result result = open_depth(self);
-    if (result == RLF_OK) {
-        result = load_rig(address, self);
-    }
+    result = result == RLF_OK ? load_rig(address, self) : result;
     if (result == RLF_OK) {
         check_color(self);
         result = check_sizes(self);
@@ -300,14 +288,13 @@ static rlf_result open_all(const rlf_address *address, folder *self, rlf_opened 
 
 static rlf_result check_is_folder(const char *path)
 {
-    struct stat status;
-    if (stat(path, &status) != 0) {
+    if (!io_path_exists(path)) {
         return rlf_fail(RLF_ERROR_IO,
                         "%s: no such file or folder: give a folder with depth.txt and "
                         "camera.json, or synthetic:room",
                         path);
     }
-    if (!S_ISDIR(status.st_mode)) {
+    if (!io_path_is_folder(path)) {
         return rlf_fail(RLF_ERROR_UNSUPPORTED,
                         "%s: is a file, and this build reads folders: give the folder that holds "
                         "depth.txt and camera.json",
@@ -336,19 +323,12 @@ static rlf_result folder_open(const rlf_address *address, rlf_opened *out)
     return io_open_end(open_all(address, self, out), self, folder_destroy);
 }
 
-/* Any folder: what is missing in it is told when it is opened. */
-static bool is_folder(const char *path)
-{
-    struct stat status;
-    return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
-}
-
 const rlf_backend io_backend_folder = {
     .version = RLF_BACKEND_VERSION,
     .scheme = "folder",
     .summary = "a clip of PNG/JPEG: depth.txt, rgb.txt, camera.json (TUM), or as in ICL-NUIM, "
                "Open3D/Redwood, 7-Scenes",
-    .recognises = is_folder,
+    .recognises = io_path_is_folder, /* any: what is missing in it is told when it is opened */
     .open = folder_open,
 };
 

@@ -1,23 +1,14 @@
 /* How the pictures of a folder are arranged. */
-#define _POSIX_C_SOURCE 200809L
 #include "io/folder/layout.h"
 #include "io/folder/lists.h"
 
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 static const char *const depth_endings[] = {".png", NULL};
 static const char *const color_endings[] = {".png", ".jpg", ".jpeg", NULL};
 static const char *const scenes7_depth[] = {".depth.png", NULL};
 static const char *const scenes7_color[] = {".color.png", ".color.jpg", NULL};
-
-static bool exists(const char *folder, const char *name)
-{
-    char path[IO_PATH_MAX];
-    struct stat status;
-    return io_path_join(folder, name, path) == RLF_OK && stat(path, &status) == 0;
-}
 
 static rlf_result read_list(const char *folder, const char *name, const char *cure,
                             io_frame_list *out)
@@ -26,12 +17,8 @@ static rlf_result read_list(const char *folder, const char *name, const char *cu
     rlf_result result = io_path_join(folder, name, path);
     io_buffer buffer = {0};
     io_bytes file;
-    if (result == RLF_OK) {
-        result = io_file_read(path, IO_LIST_FILE_MAX, cure, &buffer, &file);
-    }
-    if (result == RLF_OK) {
-        result = io_frame_list_parse(&file, out);
-    }
+    result = result == RLF_OK ? io_file_read(path, IO_LIST_FILE_MAX, cure, &buffer, &file) : result;
+    result = result == RLF_OK ? io_frame_list_parse(&file, out) : result;
     io_buffer_free(&buffer);
     return result;
 }
@@ -46,7 +33,7 @@ static rlf_result read_tum(const char *folder, io_layout *out)
         folder, "depth.txt",
         "write one \"SECONDS FILE\" line per depth picture there, and camera.json beside it",
         &out->depth);
-    if (result == RLF_OK && exists(folder, "rgb.txt")) {
+    if (result == RLF_OK && io_folder_has(folder, "rgb.txt")) {
         result = read_list(folder, "rgb.txt", "check the file", &out->color);
     }
     return result;
@@ -176,7 +163,7 @@ static const char *associations_name(const char *folder)
 {
     static const char *const names[] = {"associations.txt", "associated.txt", "association.txt"};
     for (int i = 0; i < 3; i++) {
-        if (exists(folder, names[i])) {
+        if (io_folder_has(folder, names[i])) {
             return names[i];
         }
     }
@@ -187,7 +174,7 @@ rlf_result io_layout_read(const char *folder, io_layout *out)
 {
     memset(out, 0, sizeof(*out));
     out->depth_list_name = out->color_list_name = "the folder";
-    if (exists(folder, "depth.txt")) {
+    if (io_folder_has(folder, "depth.txt")) {
         return read_tum(folder, out);
     }
     const char *associations = associations_name(folder);

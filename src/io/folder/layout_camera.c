@@ -1,11 +1,66 @@
 /* The camera of a folder without camera.json: intrinsic.json of Open3D, else what the data set is
  * known to have used. */
 #include "io/folder/layout.h"
-
 #include "io/json.h"
+#include "relief/image.h"
 
 #include <math.h>
 #include <string.h>
+
+/* ---- cameras by the size of their depth pictures ----------------------------------------- */
+
+#define FARTHEST_MM 10000 /* in rooms half of the pixels are nearer */
+
+typedef struct guessed_camera {
+    int32_t width, height;
+    double f, cx, cy; /* pixels */
+    const char *name;
+} guessed_camera;
+
+/* Kinect v1: the sets recorded with it. Kinect v2: Fankhauser et al. 2015. RealSense: the D435's
+ * field of view of 87 degrees, which its narrower pictures are cut from. Azure Kinect: its narrow
+ * and its wide mode, the narrow one cut from the wide one at (192, 180). iPhone, iPad: the colour
+ * camera's 1600 pixels of 1920. ARCore: 67 degrees, the colour camera's. */
+static const guessed_camera guesses[] = {
+    {640, 480, 525.0, 319.5, 239.5, "a Kinect v1 or an Xtion (a RealSense has about 385)"},
+    {320, 240, 262.5, 159.5, 119.5, "a Kinect v1 or an Xtion at half its size"},
+    {512, 424, 365.5, 255.5, 211.5, "a Kinect v2"},
+    {1280, 720, 640.0, 639.5, 359.5, "a RealSense D400"},
+    {848, 480, 424.0, 423.5, 239.5, "a RealSense D400"},
+    {640, 360, 320.0, 319.5, 179.5, "a RealSense D400"},
+    {480, 270, 240.0, 239.5, 134.5, "a RealSense D400"},
+    {424, 240, 212.0, 211.5, 119.5, "a RealSense D400"},
+    {640, 576, 504.0, 320.0, 332.0, "an Azure Kinect, narrow"},
+    {320, 288, 252.0, 160.0, 166.0, "an Azure Kinect, narrow, binned"},
+    {1024, 1024, 504.0, 512.0, 512.0, "an Azure Kinect, wide, without its distortion"},
+    {512, 512, 252.0, 256.0, 256.0, "an Azure Kinect, wide, binned, without its distortion"},
+    {256, 192, 213.0, 127.5, 95.5, "an iPhone or iPad"},
+    {160, 120, 121.0, 79.5, 59.5, "ARCore"},
+    {160, 90, 121.0, 79.5, 44.5, "ARCore"},
+};
+
+const char *io_guess_camera(int32_t width, int32_t height, rlf_camera *out)
+{
+    for (size_t i = 0; i < sizeof(guesses) / sizeof(guesses[0]); i++) {
+        const guessed_camera *g = &guesses[i];
+        if (g->width == width && g->height == height) {
+            *out = (rlf_camera){
+                .width = width, .height = height, .fx = g->f, .fy = g->f, .cx = g->cx, .cy = g->cy};
+            return g->name;
+        }
+    }
+    return NULL;
+}
+
+double io_guess_units(const uint16_t *depth, size_t count)
+{
+    size_t seen = 0, beyond = 0;
+    for (size_t i = 0; i < count; i++) {
+        seen += depth[i] != 0;
+        beyond += depth[i] > FARTHEST_MM && depth[i] != UINT16_MAX;
+    }
+    return 2 * beyond > seen ? 5000.0 : 1000.0;
+}
 
 /* fx fy cx cy at 640 x 480, distortion k1 k2 p1 p2 k3. */
 typedef struct known_camera {
@@ -110,12 +165,8 @@ static rlf_result parse_intrinsic(const io_bytes *file, rlf_camera *out)
     double m[9] = {0};
     memset(out, 0, sizeof(*out));
     result = io_json_get_numbers(&top, &matrix_field, m, 9);
-    if (result == RLF_OK) {
-        result = io_json_get_integer(&top, &size_fields[0], &out->width);
-    }
-    if (result == RLF_OK) {
-        result = io_json_get_integer(&top, &size_fields[1], &out->height);
-    }
+    result = result == RLF_OK ? io_json_get_integer(&top, &size_fields[0], &out->width) : result;
+    result = result == RLF_OK ? io_json_get_integer(&top, &size_fields[1], &out->height) : result;
     json_decref(document);
     out->fx = m[0];
     out->fy = fabs(m[4]); /* negative where y is up: the rows are the same */
@@ -134,9 +185,7 @@ static rlf_result read_intrinsic(const char *folder, const char *name, rlf_camer
     if (result == RLF_OK && io_file_read(path, IO_JSON_FILE_MAX, "-", &buffer, &file) != RLF_OK) {
         result = RLF_NO_FRAME;
     }
-    if (result == RLF_OK) {
-        result = parse_intrinsic(&file, out);
-    }
+    result = result == RLF_OK ? parse_intrinsic(&file, out) : result;
     io_buffer_free(&buffer);
     return result;
 }

@@ -2,12 +2,10 @@
 #define _POSIX_C_SOURCE 200809L
 #include "io/folder/layout.h"
 #include "io/folder/lists.h"
-#include "io/folder/origin.h"
 
 #include <dirent.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #define TUM_GAP_NS 20000000 /* a pose farther in time is of another place */
 
@@ -32,13 +30,6 @@ static bool find_ending(const char *folder, const char *ending, char out[IO_PATH
     return is_found;
 }
 
-static bool exists(const char *folder, const char *name)
-{
-    char path[IO_PATH_MAX];
-    struct stat status;
-    return io_path_join(folder, name, path) == RLF_OK && stat(path, &status) == 0;
-}
-
 static rlf_result read_whole(const char *folder, const char *name, io_buffer *buffer, io_bytes *out,
                              char path[IO_PATH_MAX])
 {
@@ -56,7 +47,7 @@ static rlf_result read_whole(const char *folder, const char *name, io_buffer *bu
 static rlf_result read_tum(const char *folder, io_layout *layout)
 {
     char name[IO_PATH_MAX] = "groundtruth.txt";
-    if (!exists(folder, name) && !find_ending(folder, ".gt.freiburg", name)) {
+    if (!io_folder_has(folder, name) && !find_ending(folder, ".gt.freiburg", name)) {
         return RLF_NO_FRAME;
     }
     const bool is_icl = layout->kind == IO_LAYOUT_ICL;
@@ -73,9 +64,9 @@ static rlf_result read_tum(const char *folder, io_layout *layout)
         result = io_pose_list_tum(&file, first_s, last_s, &list);
     }
     /* Those of a recording have the times of its frames, or there is none. */
-    const int64_t gap_ns = exists(folder, IO_FOLDER_SOURCE) ? 0
-                           : is_icl                         ? TUM_GAP_NS / 2
-                                                            : TUM_GAP_NS;
+    const int64_t gap_ns = io_folder_has(folder, IO_FOLDER_SOURCE) ? 0
+                           : is_icl                                ? TUM_GAP_NS / 2
+                                                                   : TUM_GAP_NS;
     for (int32_t i = 0; i < list.count && is_icl; i++) {
         list.times[i] /= IO_NUMBERED_RATE; /* frame numbers there, too */
         list.poses[i] = io_pose_flip_y(&list.poses[i]);
@@ -100,9 +91,7 @@ static rlf_result read_log(const char *folder, io_layout *layout)
     io_bytes file;
     io_pose_list list = {0};
     rlf_result result = read_whole(folder, name, &buffer, &file, path);
-    if (result == RLF_OK) {
-        result = io_pose_list_log(&file, &list);
-    }
+    result = result == RLF_OK ? io_pose_list_log(&file, &list) : result;
     for (int32_t i = 0; result == RLF_OK && i < layout->depth.count && i < list.count; i++) {
         layout->poses[i] = list.poses[i];
     }
@@ -126,7 +115,8 @@ static rlf_result read_scenes7(const char *folder, io_layout *layout)
         const char *picture = layout->depth.entries[i].name;
         const size_t stem = strcspn(picture, ".");
         snprintf(name, sizeof(name), "%.*s.pose.txt", (int)stem, picture);
-        if (exists(folder, name) && read_whole(folder, name, &buffer, &file, path) == RLF_OK) {
+        if (io_folder_has(folder, name) &&
+            read_whole(folder, name, &buffer, &file, path) == RLF_OK) {
             io_pose_matrix(&file, &layout->poses[i]);
         }
     }

@@ -3,6 +3,7 @@
 #include "io/folder/layout.h"
 
 #include <dirent.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -75,47 +76,29 @@ static bool holds_word(const char *name, const char *word)
     return false;
 }
 
-static bool is_wanted(const char *name, const char *word, const char *const *endings)
+static bool ends_with_one(const char *text, const char *const *endings)
 {
-    const char *dot = strrchr(name, '.');
-    if (name[0] == '.' || dot == NULL || !holds_word(name, word)) {
-        return false;
-    }
     for (; *endings != NULL; endings++) {
-        if (strcasecmp(dot, *endings) == 0) {
+        if (strcasecmp(text, *endings) == 0) {
             return true;
         }
     }
     return false;
 }
 
-/* Names into `out`, one after the other; with no memory there yet, only what they need. */
-static size_t walk(DIR *directory, const char *sub, const char *word, const char *const *endings,
-                   io_frame_list *out, size_t room, int32_t *inout_count)
+/* Which names are taken, and when. */
+typedef struct wish {
+    const char *part; /* that the name holds, or begins with */
+    const char *const *endings;
+    bool (*is_wanted)(const char *name, const struct wish *wish, int64_t *out_ns);
+} wish;
+
+static bool is_picture_name(const char *name, const wish *w, int64_t *out_ns)
 {
-    size_t used = 0;
-    int32_t count = 0;
-    const int32_t most = out->entries != NULL ? *inout_count : FILES_MAX;
-    for (struct dirent *e = readdir(directory); e != NULL && count < most; e = readdir(directory)) {
-        const size_t size = strlen(sub) + 1 + strlen(e->d_name) + 1;
-        if (!is_wanted(e->d_name, word, endings) || (out->entries != NULL && used + size > room)) {
-            continue;
-        }
-        if (out->entries != NULL) {
-            char *name = out->text + used;
-            name[0] = '\0';
-            if (sub[0] != '\0') {
-                memcpy(name, sub, strlen(sub));
-                memcpy(name + strlen(sub), "/", 2);
-            }
-            strcat(name, e->d_name);
-            out->entries[count] = (io_list_entry){0, count + 1, name};
-        }
-        used += size;
-        count++;
-    }
-    *inout_count = count;
-    return used;
+    const char *dot = strrchr(name, '.');
+    *out_ns = 0;
+    return name[0] != '.' && dot != NULL && holds_word(name, w->part) &&
+           ends_with_one(dot, w->endings);
 }
 
 static int64_t time_of(int64_t number)
@@ -124,17 +107,71 @@ static int64_t time_of(int64_t number)
            number % IO_NUMBERED_RATE * 1000000000 / IO_NUMBERED_RATE;
 }
 
-static void sort(io_frame_list *list)
+/* Reads digits; -1 = there are none or too many. */
+static int64_t read_number(const char **text)
 {
-    qsort(list->entries, (size_t)list->count, sizeof(list->entries[0]), compare);
-    for (int32_t i = 0; i < list->count; i++) {
-        list->entries[i].time_ns = time_of(i);
-        list->entries[i].line = i + 1;
+    int64_t value = 0;
+    int digits = 0;
+    for (; **text >= '0' && **text <= '9'; ++*text) {
+        if (++digits > DIGITS_MAX) {
+            return -1;
+        }
+        value = value * 10 + (**text - '0');
     }
+    return digits > 0 ? value : -1;
 }
 
-rlf_result io_named_list(const char *folder, const char *sub, const char *word,
-                         const char *const *endings, io_frame_list *out)
+/* Whether the name is one of those wanted, and its time. */
+static bool is_numbered_name(const char *name, const wish *w, int64_t *out_ns)
+{
+    const size_t length = strlen(w->part);
+    if (strncmp(name, w->part, length) != 0) {
+        return false;
+    }
+    const char *rest = name + length;
+    const int64_t number = read_number(&rest);
+    if (number < 0 || number > INT64_MAX / 1000000000 * IO_NUMBERED_RATE) {
+        return false;
+    }
+    *out_ns = time_of(number);
+    if (*rest == '-') {
+        rest++;
+        const int64_t micros = read_number(&rest);
+        if (micros < 0 || micros > INT64_MAX / 1000) {
+            return false;
+        }
+        *out_ns = micros * 1000;
+    }
+    return ends_with_one(rest, w->endings);
+}
+
+/* Names into `out`, one after the other; with no memory there yet, only what they need. */
+static size_t walk(DIR *directory, const char *sub, const wish *w, io_frame_list *out, size_t room,
+                   int32_t *inout_count)
+{
+    size_t used = 0;
+    int32_t count = 0;
+    const bool takes = out->entries != NULL;
+    const int32_t most = takes ? *inout_count : FILES_MAX;
+    for (struct dirent *e = readdir(directory); e != NULL && count < most; e = readdir(directory)) {
+        int64_t time_ns;
+        const size_t size = strlen(sub) + 1 + strlen(e->d_name) + 1;
+        if (!w->is_wanted(e->d_name, w, &time_ns) || (takes && used + size > room)) {
+            continue;
+        }
+        if (takes) {
+            char *name = out->text + used;
+            snprintf(name, size, "%s%s%s", sub, sub[0] != '\0' ? "/" : "", e->d_name);
+            out->entries[count] = (io_list_entry){time_ns, count + 1, name};
+        }
+        used += size;
+        count++;
+    }
+    *inout_count = count;
+    return used;
+}
+
+static rlf_result list_files(const char *folder, const char *sub, const wish *w, io_frame_list *out)
 {
     memset(out, 0, sizeof(*out));
     char path[IO_PATH_MAX];
@@ -144,21 +181,53 @@ rlf_result io_named_list(const char *folder, const char *sub, const char *word,
         return result;
     }
     int32_t count = 0;
-    const size_t size = walk(directory, sub, word, endings, out, 0, &count);
+    const size_t size = walk(directory, sub, w, out, 0, &count);
     if (count > 0) {
         out->text = rlf_alloc(size);
         out->entries = rlf_alloc_array((size_t)count, sizeof(out->entries[0]));
         if (out->text != NULL && out->entries != NULL) {
             rewinddir(directory);
-            walk(directory, sub, word, endings, out, size, &count);
+            walk(directory, sub, w, out, size, &count);
             out->count = count;
-            sort(out);
         } else {
             io_frame_list_free(out);
             result = RLF_ERROR_MEMORY;
         }
     }
     closedir(directory);
+    return result;
+}
+
+static int compare_times(const void *a, const void *b)
+{
+    const io_list_entry *x = a, *y = b;
+    return x->time_ns != y->time_ns ? (x->time_ns > y->time_ns) - (x->time_ns < y->time_ns)
+                                    : strcmp(x->name, y->name);
+}
+
+rlf_result io_numbered_list(const char *folder, const char *sub, const char *prefix,
+                            const char *const *endings, io_frame_list *out)
+{
+    const wish w = {prefix, endings, is_numbered_name};
+    rlf_result result = list_files(folder, sub, &w, out);
+    if (out->count > 0) {
+        qsort(out->entries, (size_t)out->count, sizeof(out->entries[0]), compare_times);
+    }
+    return result;
+}
+
+rlf_result io_named_list(const char *folder, const char *sub, const char *word,
+                         const char *const *endings, io_frame_list *out)
+{
+    const wish w = {word, endings, is_picture_name};
+    rlf_result result = list_files(folder, sub, &w, out);
+    if (out->count > 0) {
+        qsort(out->entries, (size_t)out->count, sizeof(out->entries[0]), compare);
+    }
+    for (int32_t i = 0; i < out->count; i++) {
+        out->entries[i].time_ns = time_of(i);
+        out->entries[i].line = i + 1;
+    }
     return result;
 }
 

@@ -1,6 +1,6 @@
 /* What a folder that Relief has recorded says beside its pictures. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/folder/origin.h"
+#include "io/folder/layout.h"
 
 #include "io/json.h"
 #include "relief/io.h"
@@ -67,9 +67,7 @@ static rlf_result read_source(const char *path, io_clip_origin *out, uint32_t *o
     io_bytes file;
     json_t *document = NULL;
     rlf_result result = io_file_read(path, IO_JSON_FILE_MAX, "take it away", &buffer, &file);
-    if (result == RLF_OK) {
-        result = io_json_parse(&file, &document);
-    }
+    result = result == RLF_OK ? io_json_parse(&file, &document) : result;
     if (result == RLF_OK) {
         const io_json_object top = io_json_top(&file, document);
         result = read_facts(&top, out, out_flags);

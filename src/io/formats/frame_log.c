@@ -1,13 +1,29 @@
 /* Recordings that are one long list of frames. */
 #include "io/formats/frame_log.h"
-
 #include "io/picture/picture.h"
-#include "io/picture/inflate.h"
 #include "io/picture/pixels.h"
 #include "io/clip/clip.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <zlib.h>
+
+/* Unpacks `in` into exactly out_size bytes, never more; another size is an error. */
+static rlf_result inflate_all(const io_bytes *in, void *out, size_t out_size)
+{
+    uLongf size = (uLongf)out_size;
+    const int code = uncompress(out, &size, in->data, (uLong)in->size);
+    if (code == Z_MEM_ERROR) {
+        return rlf_fail(RLF_ERROR_MEMORY, "%s: out of memory while reading it", in->name);
+    }
+    if (code != Z_OK || size != out_size) {
+        return rlf_fail(RLF_ERROR_FORMAT,
+                        "%s: packed depth is damaged or of another size than %zu bytes: copy the "
+                        "file again, or check the calibration's size",
+                        in->name, out_size);
+    }
+    return RLF_OK;
+}
 
 #define FRAMES_MAX (4 << 20) /* nearly two days at 30 per second */
 #define NS_PER_S 1000000000
@@ -82,7 +98,7 @@ static rlf_result read_depth(void *context, int32_t index, void *out)
     }
     rlf_result result =
         io_file_read_bytes(&log->file, f->depth_position, f->depth_size, &log->buffer, &bytes);
-    return result == RLF_OK ? io_inflate(&bytes, out, size) : result;
+    return result == RLF_OK ? inflate_all(&bytes, out, size) : result;
 }
 
 static void swap_red_and_blue(const rlf_image_rgba8 *image)
@@ -123,9 +139,7 @@ static rlf_result read_color(void *context, int32_t index, const rlf_image_rgba8
     io_bytes bytes;
     rlf_result result =
         io_file_read_bytes(&log->file, shot->position, shot->size, &log->buffer, &bytes);
-    if (result == RLF_OK) {
-        result = decode_color(&bytes, out);
-    }
+    result = result == RLF_OK ? decode_color(&bytes, out) : result;
     if (result == RLF_OK && log->is_bgr) {
         swap_red_and_blue(out);
     }

@@ -89,15 +89,9 @@ static rlf_result klg_open(const rlf_address *address, rlf_opened *out)
         return result;
     }
     result = read_order(address, log);
-    if (result == RLF_OK) {
-        result = read_frames(log);
-    }
-    if (result == RLF_OK) {
-        result = read_rig(address, log);
-    }
-    if (result == RLF_OK) {
-        result = io_log_to_clip(log, ".klg log", out);
-    }
+    result = result == RLF_OK ? read_frames(log) : result;
+    result = result == RLF_OK ? read_rig(address, log) : result;
+    result = result == RLF_OK ? io_log_to_clip(log, ".klg log", out) : result;
     return io_open_end(result, log, io_log_free);
 }
 

@@ -237,12 +237,8 @@ static rlf_result open_clip(const rlf_address *address, matroska *self, rlf_open
 static rlf_result open_all(const rlf_address *address, matroska *self, rlf_opened *out)
 {
     rlf_result result = mkv_file_open(address->place, &self->file);
-    if (result == RLF_OK) {
-        result = find_tracks(self);
-    }
-    if (result == RLF_OK) {
-        result = read_rig(address, self);
-    }
+    result = result == RLF_OK ? find_tracks(self) : result;
+    result = result == RLF_OK ? read_rig(address, self) : result;
     return result == RLF_OK ? open_clip(address, self, out) : result;
 }
 

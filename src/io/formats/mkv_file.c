@@ -3,6 +3,66 @@
 
 #include <string.h>
 
+/* ---- elements of EBML (RFC 8794), of which Matroska (RFC 9559) files are made --------------- */
+
+/* Longest header of an element: id and size. */
+#define EBML_HEADER_MAX 12
+
+typedef struct ebml_element {
+    uint32_t id;
+    int32_t header_size; /* bytes in front of the data */
+    int64_t size;        /* of the data; -1 = not known: up to the next element of its level */
+} ebml_element;
+
+/* Variable-length number, without its marker; returns its length, 0 when it is none. */
+static int32_t ebml_number(const uint8_t *data, size_t size, uint64_t *out, bool *out_is_unknown)
+{
+    int32_t length = 1;
+    while (length <= 8 && size > 0 && (data[0] & (0x100u >> length)) == 0) {
+        length++;
+    }
+    if (length > 8 || (size_t)length > size) {
+        return 0;
+    }
+    uint64_t value = data[0] & ((0x100u >> length) - 1);
+    for (int32_t i = 1; i < length; i++) {
+        value = value << 8 | data[i];
+    }
+    *out = value;
+    *out_is_unknown = value == (UINT64_C(1) << (7 * length)) - 1;
+    return length;
+}
+
+/* Unsigned integer, most significant byte first. */
+static uint64_t ebml_unsigned(const uint8_t *data, size_t size)
+{
+    uint64_t value = 0;
+    for (size_t i = 0; i < size && i < 8; i++) {
+        value = value << 8 | data[i];
+    }
+    return value;
+}
+
+/* Reads the header of an element; false when the bytes are none. */
+static bool ebml_read(const uint8_t *data, size_t size, ebml_element *out)
+{
+    uint64_t value = 0;
+    bool is_unknown = false;
+    const int32_t id_length = ebml_number(data, size, &value, &is_unknown);
+    if (id_length < 1 || id_length > 4) {
+        return false;
+    }
+    /* An id keeps its marker. */
+    out->id = (uint32_t)ebml_unsigned(data, (size_t)id_length);
+    const int32_t length =
+        ebml_number(data + id_length, size - (size_t)id_length, &value, &is_unknown);
+    out->header_size = id_length + length;
+    out->size = is_unknown ? -1 : (int64_t)value;
+    return length > 0;
+}
+
+/* ---- the walk ------------------------------------------------------------------------------ */
+
 #define SMALL_MAX 256 /* bytes of an element that is read whole */
 
 /* Ids are unique at all levels, so one walk that goes into the elements that hold others sees each
@@ -250,12 +310,8 @@ rlf_result mkv_file_open(const char *path, mkv_file *out)
     memset(out, 0, sizeof(*out));
     walk w = {.file = out, .scale_ns = 1000000};
     rlf_result result = io_file_open(&out->file, path, "check the name");
-    if (result == RLF_OK) {
-        result = check_head(out);
-    }
-    if (result == RLF_OK) {
-        result = look_through(&w);
-    }
+    result = result == RLF_OK ? check_head(out) : result;
+    result = result == RLF_OK ? look_through(&w) : result;
     if (result != RLF_OK) {
         mkv_file_close(out);
     }

@@ -241,9 +241,7 @@ rlf_result oni_index_read(const io_file *file, oni_index *out)
     memset(out, 0, sizeof(*out));
     uint32_t header_size = 0;
     rlf_result result = read_file_header(file, &header_size);
-    if (result == RLF_OK) {
-        result = walk(file, header_size, out);
-    }
+    result = result == RLF_OK ? walk(file, header_size, out) : result;
     if (result == RLF_OK) {
         sort_by_time(&out->depth, file->path);
         sort_by_time(&out->color, file->path);

@@ -278,12 +278,8 @@ static rlf_result open_clip(oni *o, rlf_opened *out)
 static rlf_result open_all(oni *o, const rlf_address *address, rlf_opened *out)
 {
     rlf_result result = io_file_open(&o->file, address->place, "check the name");
-    if (result == RLF_OK) {
-        result = oni_index_read(&o->file, &o->index);
-    }
-    if (result == RLF_OK) {
-        result = check_depth(o);
-    }
+    result = result == RLF_OK ? oni_index_read(&o->file, &o->index) : result;
+    result = result == RLF_OK ? check_depth(o) : result;
     if (result != RLF_OK) {
         return result;
     }
@@ -294,9 +290,7 @@ static rlf_result open_all(oni *o, const rlf_address *address, rlf_opened *out)
     }
     check_color(o);
     result = read_keys(o, address);
-    if (result == RLF_OK) {
-        result = make_rig(o, address);
-    }
+    result = result == RLF_OK ? make_rig(o, address) : result;
     return result == RLF_OK ? open_clip(o, out) : result;
 }
 

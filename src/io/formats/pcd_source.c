@@ -4,8 +4,62 @@
 #include "io/source/backends.h"
 #include "io/clip/clip.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+/* ---- the camera that the cloud was made with --------------------------------------------- */
+
+#define POINTS_MIN 16
+#define RESIDUAL_MAX_PX 0.1
+
+/* Sums of a line pixel = f slope + c. */
+typedef struct line_fit {
+    double n, s, p, ss, sp, pp;
+} line_fit;
+
+static void add(line_fit *l, double slope, double pixel)
+{
+    l->n += 1.0;
+    l->s += slope;
+    l->p += pixel;
+    l->ss += slope * slope;
+    l->sp += slope * pixel;
+    l->pp += pixel * pixel;
+}
+
+static bool solve(const line_fit *l, double *out_f, double *out_c)
+{
+    const double spread = l->ss - l->s * l->s / l->n;
+    const double common = l->sp - l->s * l->p / l->n;
+    const double whole = l->pp - l->p * l->p / l->n;
+    if (!(l->n >= POINTS_MIN) || !(spread > 0.0) || !(common > 0.0)) {
+        return false;
+    }
+    *out_f = common / spread;
+    *out_c = (l->p - *out_f * l->s) / l->n;
+    const double rest = fmax(whole - *out_f * common, 0.0);
+    return isfinite(*out_f) && isfinite(*out_c) && sqrt(rest / l->n) <= RESIDUAL_MAX_PX;
+}
+
+bool io_pcd_lens_fit(const io_pcd_header *header, const io_pcd_points *points, rlf_camera *out)
+{
+    line_fit u = {0}, v = {0};
+    for (int32_t y = 0; y < header->height; y++) {
+        for (int32_t x = 0; x < header->width; x++) {
+            const size_t i = (size_t)y * (size_t)header->width + (size_t)x;
+            const double z = points->z[i];
+            if (z > 0.0 && isfinite(z) && isfinite(points->x[i]) && isfinite(points->y[i])) {
+                add(&u, points->x[i] / z, x);
+                add(&v, points->y[i] / z, y);
+            }
+        }
+    }
+    memset(out, 0, sizeof(*out));
+    out->width = header->width;
+    out->height = header->height;
+    return solve(&u, &out->fx, &out->cx) && solve(&v, &out->fy, &out->cy);
+}
 
 #define FILE_MAX ((size_t)1 << 30)
 
@@ -86,12 +140,8 @@ static rlf_result read_file(const rlf_address *address, pcd *p)
     io_bytes file;
     rlf_result result =
         io_file_read(address->place, FILE_MAX, "give an organised .pcd file", &buffer, &file);
-    if (result == RLF_OK) {
-        result = io_pcd_header_parse(&file, &p->header);
-    }
-    if (result == RLF_OK) {
-        result = io_pcd_points_read(&file, &p->header, &p->points);
-    }
+    result = result == RLF_OK ? io_pcd_header_parse(&file, &p->header) : result;
+    result = result == RLF_OK ? io_pcd_points_read(&file, &p->header, &p->points) : result;
     io_buffer_free(&buffer);
     return result;
 }
@@ -115,9 +165,7 @@ static rlf_result open_clip(const rlf_address *address, pcd *p, rlf_opened *out)
 static rlf_result open_all(const rlf_address *address, pcd *p, rlf_opened *out)
 {
     rlf_result result = read_file(address, p);
-    if (result == RLF_OK) {
-        result = set_rig(address, p);
-    }
+    result = result == RLF_OK ? set_rig(address, p) : result;
     return result == RLF_OK ? open_clip(address, p, out) : result;
 }
 

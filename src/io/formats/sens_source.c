@@ -190,15 +190,9 @@ static rlf_result sens_open(const rlf_address *address, rlf_opened *out)
         return result;
     }
     result = read_header(log, &header, &end);
-    if (result == RLF_OK) {
-        result = check_header(&header, log);
-    }
-    if (result == RLF_OK) {
-        result = set_rig(address, &header, log);
-    }
-    if (result == RLF_OK) {
-        result = read_frames(log, header.frame_count, end);
-    }
+    result = result == RLF_OK ? check_header(&header, log) : result;
+    result = result == RLF_OK ? set_rig(address, &header, log) : result;
+    result = result == RLF_OK ? read_frames(log, header.frame_count, end) : result;
     if (result == RLF_OK) {
         log->has_poses = true;
         result = io_log_to_clip(log, "ScanNet .sens", out);

@@ -258,15 +258,9 @@ static rlf_result start(kinect *k, const rlf_address *address)
 static rlf_result open_all(kinect *k, const rlf_address *address)
 {
     rlf_result result = read_keys(k, address);
-    if (result == RLF_OK) {
-        result = open_context(k, address->source);
-    }
-    if (result == RLF_OK) {
-        result = open_device(k, address);
-    }
-    if (result == RLF_OK) {
-        result = make_rig(k, address);
-    }
+    result = result == RLF_OK ? open_context(k, address->source) : result;
+    result = result == RLF_OK ? open_device(k, address) : result;
+    result = result == RLF_OK ? make_rig(k, address) : result;
     if (result == RLF_OK) {
         result = io_stream_pair_init(&k->pair, &k->rig, FREENECT_UNITS_PER_METRE, RATE);
         k->pair.flags = (k->flips ? (uint32_t)RLF_FRAME_UNMIRRORED : 0u) |

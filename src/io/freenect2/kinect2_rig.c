@@ -3,8 +3,6 @@
  * Gauss and Newton's method, so that Relief treats this camera as any other. */
 #include "io/freenect2/freenect2.h"
 
-#include "io/live/least_squares.h"
-
 #include <math.h>
 
 /* Kinect v2 as it is sold: 0.5 to 4.5 m. */
@@ -195,9 +193,7 @@ rlf_result kinect2_rig_fit(const kinect2_ir *ir, const kinect2_color *color, rlf
                      .depth_max_m = DEPTH_MAX_M,
                      .noise = IO_TIME_OF_FLIGHT_NOISE};
     rlf_result result = rlf_camera_check(&out->depth, "freenect2: the camera's own calibration");
-    if (result == RLF_OK) {
-        result = fit_color(ir, color, out, out_fit);
-    }
+    result = result == RLF_OK ? fit_color(ir, color, out, out_fit) : result;
     return result == RLF_OK ? rlf_camera_check(&out->color, "freenect2: the fitted colour camera")
                             : result;
 }

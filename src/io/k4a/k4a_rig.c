@@ -128,9 +128,7 @@ rlf_result io_k4a_read_rig(k4a *k)
     }
     k->rig.has_color = true;
     rlf_result result = read_camera(k, &in.depth, "depth", &k->rig.depth);
-    if (result == RLF_OK) {
-        result = read_camera(k, &in.color, "colour", &k->rig.color);
-    }
+    result = result == RLF_OK ? read_camera(k, &in.color, "colour", &k->rig.color) : result;
     const k4a_extrinsics *e = &in.extrinsics[K4A_CAMERA_DEPTH][K4A_CAMERA_COLOR];
     if (result == RLF_OK &&
         !io_live_pose(e->rotation, e->translation, 0.001, &k->rig.T_color_depth)) {

@@ -54,9 +54,7 @@ static rlf_result take(io_live *l, rlf_frame *out)
         return rlf_fail(l->outcome, "%s", l->error);
     }
     rlf_result result = l->outcome;
-    if (result == RLF_OK) {
-        result = rlf_frame_check(&l->info.rig, &l->answer, l->name);
-    }
+    result = result == RLF_OK ? rlf_frame_check(&l->info.rig, &l->answer, l->name) : result;
     if (result == RLF_OK) {
         live_slot_copy(&l->slots[0], &l->info.rig, &l->answer);
         *out = l->slots[0].frame;

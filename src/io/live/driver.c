@@ -1,6 +1,5 @@
 /* What all live cameras need. */
 #include "io/live/driver.h"
-
 #include "io/clip/clip.h"
 
 #include <math.h>
@@ -159,4 +158,32 @@ bool io_live_count_time(io_live_count *c, int64_t time_ns, rlf_frame *out)
         number += 1 + (gap_ns > 0 ? (uint64_t)io_time_lost(gap_ns, c->interval_ns) : 0);
     }
     return io_live_count_frame(c, number, time_ns, out);
+}
+
+/* ---- a lens model from fields of view ---------------------------------------------------- */
+
+/* Horizontal focal length over width of PrimeSense cameras: 58.5 degrees (Kinect v1, Xtion). */
+#define FOCAL_TYPICAL 0.9
+
+static bool is_angle(double radians)
+{
+    return radians > 0.1 && radians < 3.0;
+}
+
+bool io_camera_from_fov(int32_t width, int32_t height, double fov_x, double fov_y, rlf_camera *out)
+{
+    const double w = width;
+    const double h = height;
+    *out = (rlf_camera){.width = width,
+                        .height = height,
+                        .fx = FOCAL_TYPICAL * w,
+                        .fy = FOCAL_TYPICAL * w,
+                        .cx = 0.5 * (w - 1.0),
+                        .cy = 0.5 * (h - 1.0)};
+    if (!is_angle(fov_x) || !is_angle(fov_y)) {
+        return false;
+    }
+    out->fx = 0.5 * w * rlf_cos(0.5 * fov_x) / rlf_sin(0.5 * fov_x);
+    out->fy = 0.5 * h * rlf_cos(0.5 * fov_y) / rlf_sin(0.5 * fov_y);
+    return true;
 }

@@ -111,6 +111,23 @@ typedef struct io_lens_sample {
  * camera is left without distortion. */
 double io_lens_fit(const io_lens_sample *samples, int32_t count, rlf_camera *camera);
 
+/* ---- Linear least squares with few unknowns, by normal equations ---- */
+
+#define IO_UNKNOWNS_MAX 16
+
+/* Zero but for `count` before the first row. */
+typedef struct io_least_squares {
+    int32_t count; /* unknowns */
+    double a[IO_UNKNOWNS_MAX][IO_UNKNOWNS_MAX];
+    double b[IO_UNKNOWNS_MAX];
+} io_least_squares;
+
+/* One equation: the sum of row[i] x[i] is `value`. */
+void io_least_squares_add(io_least_squares *ls, const double *row, double value);
+
+/* Writes the `count` unknowns; false when the rows do not determine them. Uses *ls up. */
+bool io_least_squares_solve(io_least_squares *ls, double *out);
+
 /* Depth and colour pictures that a live device sends as two streams, paired by their times. */
 
 #define IO_STREAM_SLOTS 4

@@ -1,7 +1,7 @@
 /* Driver libraries that are opened at run time. */
 #include "io/live/driver.h"
 
-#include "io/source/object_file.h"
+#include "io/source/backends.h"
 
 #include <dlfcn.h>
 #include <pthread.h>

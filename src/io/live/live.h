@@ -30,10 +30,6 @@ typedef struct live_address {
     char *text; /* owned: all strings */
 } live_address;
 
-/* Do not move *out afterwards. */
-rlf_result live_address_copy(const rlf_address *address, live_address *out);
-void live_address_free(live_address *address);
-
 /* Times and counts of a camera's frames, kept going when its own clock or counter starts anew. */
 
 typedef struct live_follow {

@@ -1,13 +1,157 @@
 /* A camera without hardware: plays any source in real time, over and over, with faults. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/live/simulated.h"
-
 #include "io/source/backends.h"
 
+#include <pthread.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
+
+/* ---- what goes wrong with a simulated camera, and when ----------------------------------- */
+
+/* Times are seconds since the camera was opened first; < 0 = never. */
+typedef struct simulated_faults {
+    double unplug_s, replug_s;    /* pulled out; put back in that long after */
+    double stall_s, stall_from_s; /* no frames for stall_s; stall_s 0 = never */
+    double hang_s;                /* from then on its driver does not return */
+    double time_back_s;           /* its clock starts again from zero */
+    double jitter_s;              /* frames come up to that much late */
+    int32_t drop, doubled;        /* every n-th frame is lost, comes twice; 0 = none */
+} simulated_faults;
+
+#define TIME_MAX_S 1e6
+#define EVERY_MAX 1000000
+
+static rlf_result fail_key(const rlf_address *address, const char *key, const char *cure)
+{
+    return rlf_fail(RLF_ERROR_INVALID, "%s: %s=%.40s: use %s", address->source, key,
+                    rlf_address_get(address, key), cure);
+}
+
+static rlf_result parse_time(const rlf_address *address, const char *key, double *out)
+{
+    const char *text = rlf_address_get(address, key);
+    char rest;
+    if (text == NULL) {
+        return RLF_OK;
+    }
+    const bool is_good =
+        sscanf(text, "%lf%c", out, &rest) == 1 && *out >= 0.0 && *out <= TIME_MAX_S;
+    return is_good ? RLF_OK : fail_key(address, key, "seconds, 0 to 1000000");
+}
+
+static rlf_result parse_every(const rlf_address *address, const char *key, int32_t *out)
+{
+    const char *text = rlf_address_get(address, key);
+    char rest;
+    double value = 0.0;
+    if (text == NULL) {
+        return RLF_OK;
+    }
+    if (sscanf(text, "%lf%c", &value, &rest) != 1 || !(value >= 2.0) || value > EVERY_MAX) {
+        return fail_key(address, key, "a number of frames, 2 to 1000000");
+    }
+    *out = (int32_t)value;
+    return RLF_OK;
+}
+
+static rlf_result parse_stall(const rlf_address *address, simulated_faults *out)
+{
+    const char *text = rlf_address_get(address, "stall");
+    char rest;
+    if (text == NULL) {
+        return RLF_OK;
+    }
+    const bool is_good = sscanf(text, "%lf@%lf%c", &out->stall_s, &out->stall_from_s, &rest) == 2 &&
+                         out->stall_s > 0.0 && out->stall_s <= TIME_MAX_S &&
+                         out->stall_from_s >= 0.0 && out->stall_from_s <= TIME_MAX_S;
+    return is_good ? RLF_OK : fail_key(address, "stall", "SECONDS@WHEN, e.g. 2@10");
+}
+
+/* Keys unplug_after, replug_after, stall, hang, time_back, jitter, drop, doubled. */
+static rlf_result simulated_faults_parse(const rlf_address *address, simulated_faults *out)
+{
+    *out = (simulated_faults){.unplug_s = -1, .replug_s = -1, .hang_s = -1, .time_back_s = -1};
+    double jitter_ms = 0.0;
+    rlf_result result = parse_time(address, "unplug_after", &out->unplug_s);
+    result = result == RLF_OK ? parse_time(address, "replug_after", &out->replug_s) : result;
+    result = result == RLF_OK ? parse_stall(address, out) : result;
+    result = result == RLF_OK ? parse_time(address, "hang", &out->hang_s) : result;
+    result = result == RLF_OK ? parse_time(address, "time_back", &out->time_back_s) : result;
+    result = result == RLF_OK ? parse_time(address, "jitter", &jitter_ms) : result;
+    result = result == RLF_OK ? parse_every(address, "drop", &out->drop) : result;
+    result = result == RLF_OK ? parse_every(address, "doubled", &out->doubled) : result;
+    out->jitter_s = jitter_ms * 1e-3;
+    return result;
+}
+
+static bool simulated_is_plugged(const simulated_faults *f, double time_s)
+{
+    const bool is_pulled = f->unplug_s >= 0.0 && time_s >= f->unplug_s;
+    return !is_pulled || (f->replug_s >= 0.0 && time_s >= f->unplug_s + f->replug_s);
+}
+
+static bool simulated_is_stalled(const simulated_faults *f, double time_s)
+{
+    return f->stall_s > 0.0 && time_s >= f->stall_from_s && time_s < f->stall_from_s + f->stall_s;
+}
+
+/* ---- cameras stay plugged in while programs open and close them -------------------------- */
+
+#define NAME_SIZE 64
+#define DEVICES_MAX 64
+
+typedef struct device {
+    char name[NAME_SIZE];
+    int64_t start_ns;
+} device;
+
+static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
+static device devices[DEVICES_MAX];
+static int32_t device_count;
+
+static device *find(const char *name)
+{
+    for (int32_t i = 0; i < device_count; i++) {
+        if (strcmp(devices[i].name, name) == 0) {
+            return &devices[i];
+        }
+    }
+    return NULL;
+}
+
+/* When the camera of that name was opened first (rlf_clock_ns), from when its faults are counted;
+ * now, if it never was. Both calls are thread-safe. */
+static int64_t simulated_device_start(const char *name)
+{
+    pthread_mutex_lock(&mutex);
+    const device *d = find(name);
+    const int64_t start_ns = d != NULL ? d->start_ns : rlf_clock_ns();
+    pthread_mutex_unlock(&mutex);
+    return start_ns;
+}
+
+/* It was opened; the first time counts. */
+static rlf_result simulated_device_note(const char *name)
+{
+    if (strlen(name) >= NAME_SIZE) {
+        return rlf_fail(RLF_ERROR_INVALID, "simulated:%.20s...: the name is longer than %d bytes",
+                        name, NAME_SIZE - 1);
+    }
+    pthread_mutex_lock(&mutex);
+    const bool is_known = find(name) != NULL;
+    const bool has_room = device_count < DEVICES_MAX;
+    if (!is_known && has_room) {
+        device *d = &devices[device_count++];
+        (void)snprintf(d->name, sizeof(d->name), "%s", name);
+        d->start_ns = rlf_clock_ns();
+    }
+    pthread_mutex_unlock(&mutex);
+    return is_known || has_room ? RLF_OK
+                                : rlf_fail(RLF_ERROR_CAPACITY, "simulated:%s: more than %d of them",
+                                           name, DEVICES_MAX);
+}
 
 #define NS_PER_S 1e9
 #define WAIT_MAX_S 0.05 /* of one call, as drivers do */

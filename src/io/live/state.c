@@ -6,6 +6,55 @@
 #include <string.h>
 #include <time.h>
 
+/* ---- an address that lives longer than the call that gave it ----------------------------- */
+
+static size_t text_size(const rlf_address *a)
+{
+    size_t size = strlen(a->source) + strlen(a->place) + 2;
+    for (int32_t i = 0; i < a->key_count; i++) {
+        size += strlen(a->keys[i]) + strlen(a->values[i]) + 2;
+    }
+    return size;
+}
+
+static const char *put(char **end, const char *text)
+{
+    char *copy = *end;
+    const size_t size = strlen(text) + 1;
+    memcpy(copy, text, size);
+    *end += size;
+    return copy;
+}
+
+/* Do not move *out afterwards. */
+static rlf_result live_address_copy(const rlf_address *address, live_address *out)
+{
+    memset(out, 0, sizeof(*out));
+    out->text = rlf_alloc(text_size(address));
+    if (out->text == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    char *end = out->text;
+    out->address = *address;
+    out->address.source = put(&end, address->source);
+    out->address.place = put(&end, address->place);
+    for (int32_t i = 0; i < address->key_count; i++) {
+        out->address.keys[i] = put(&end, address->keys[i]);
+        out->address.values[i] = put(&end, address->values[i]);
+    }
+    if (address->rig != NULL) {
+        out->rig = *address->rig;
+        out->address.rig = &out->rig;
+    }
+    return RLF_OK;
+}
+
+static void live_address_free(live_address *address)
+{
+    rlf_free(address->text);
+    address->text = NULL;
+}
+
 #define END_NS (LIVE_SECOND_NS * 3 / 2) /* for the driver to come back when the source ends */
 
 static rlf_result create_lock(io_live *l)
@@ -49,9 +98,7 @@ rlf_result live_create(const rlf_backend *backend, const rlf_address *address,
         return RLF_ERROR_MEMORY;
     }
     rlf_result result = create_lock(l);
-    if (result == RLF_OK) {
-        result = live_address_copy(address, &l->address);
-    }
+    result = result == RLF_OK ? live_address_copy(address, &l->address) : result;
     if (result != RLF_OK) {
         rlf_free(l);
         return result;

@@ -1,5 +1,5 @@
 /* Chunks: decompressing, checking and looking into them. */
-#include "io/mcap/reader.h"
+#include "io/mcap/read.h"
 
 #include <zlib.h>
 

@@ -1,5 +1,5 @@
 /* What the MCAP reader knows: lists that grow, and bytes of the file. */
-#include "io/mcap/reader.h"
+#include "io/mcap/read.h"
 
 #include "io/ros/recording.h"
 
@@ -31,8 +31,7 @@ rlf_result io_mcap_read_block(const io_mcap_reader *reader, uint64_t offset, uin
     return result;
 }
 
-/* ---- lists ------------------------------------------------------------------------------------
- */
+/* ---- lists ---------------------------------------------------------------------------------- */
 
 static const io_mcap_schema *find_schema(const io_mcap_reader *reader, uint16_t id)
 {

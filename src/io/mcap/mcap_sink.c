@@ -37,8 +37,7 @@ typedef struct mcap_sink {
     uint64_t frames, colors, bytes;
 } mcap_sink;
 
-/* ---- what stands before the pictures -----------------------------------------------------------
- */
+/* ---- what stands before the pictures -------------------------------------------------------- */
 
 static void add_metadata(mcap_sink *s, const rlf_frame *frame)
 {
@@ -166,8 +165,7 @@ static rlf_result start(mcap_sink *s, const rlf_frame *frame)
     return RLF_OK;
 }
 
-/* ---- pictures ---------------------------------------------------------------------------------
- */
+/* ---- pictures ------------------------------------------------------------------------------- */
 
 static void put_rvl(mcap_sink *s, const uint16_t *rows, io_byte_buffer *b)
 {
@@ -303,9 +301,7 @@ static rlf_result mcap_add(void *self, const rlf_frame *frame)
     if (result == RLF_OK && s->info.rig.has_color && frame->color.data != NULL) {
         result = add_color(s, frame);
     }
-    if (result == RLF_OK) {
-        result = add_depth(s, frame);
-    }
+    result = result == RLF_OK ? add_depth(s, frame) : result;
     if (result == RLF_OK && frame->has_pose) {
         add_pose(s, frame);
     }

@@ -1,8 +1,7 @@
 /* Reading MCAP files: opening, and messages out of them. */
-#include "io/mcap/reader.h"
+#include "io/mcap/read.h"
 
-/* ---- open and close ---------------------------------------------------------------------------
- */
+/* ---- open and close ------------------------------------------------------------------------- */
 
 static void forget(io_mcap_reader *reader)
 {
@@ -68,12 +67,8 @@ rlf_result io_mcap_reader_open(const char *path, io_mcap_reader **out)
     }
     rlf_result result = io_file_open(&reader->file, path, "check the name");
     reader->size = (uint64_t)reader->file.size;
-    if (result == RLF_OK) {
-        result = io_mcap_compressor_create(&reader->compressor);
-    }
-    if (result == RLF_OK) {
-        result = list_all(reader);
-    }
+    result = result == RLF_OK ? io_mcap_compressor_create(&reader->compressor) : result;
+    result = result == RLF_OK ? list_all(reader) : result;
     if (result != RLF_OK) {
         io_mcap_reader_close(&reader);
         return result;
@@ -104,8 +99,7 @@ void io_mcap_reader_close(io_mcap_reader **reader)
     rlf_free(r);
 }
 
-/* ---- what others ask --------------------------------------------------------------------------
- */
+/* ---- what others ask ------------------------------------------------------------------------ */
 
 int32_t io_mcap_channel_count(const io_mcap_reader *reader)
 {

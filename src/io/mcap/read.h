@@ -4,6 +4,7 @@
 
 #include "io/clip/clip.h"
 #include "io/file.h"
+#include "io/mcap/format.h"
 #include "io/ros/messages.h"
 
 #define IO_MCAP_TOPIC_MAX 256
@@ -45,16 +46,93 @@ const char *io_mcap_strangers(const io_mcap_reader *reader);
 /* Value of a key of the Metadata record "relief", or NULL. */
 const char *io_mcap_metadata(const io_mcap_reader *reader, const char *key);
 
-/* ---- What a recording of Relief's own says beside its pictures ---- */
+/* ---- What the parts of the reader share ---- */
 
-/* The channel of that type and topic that has messages; -1 = none. */
-int32_t io_mcap_find_topic(const io_mcap_reader *reader, io_ros_type type, const char *topic);
-/* What ROS has no message for, from the metadata; nonsense changes nothing. */
-double io_mcap_number(const io_mcap_reader *reader, const char *key, double low, double high,
-                      double otherwise);
-/* What its source said beside the calibration; without the notes. */
-void io_mcap_read_origin(const io_mcap_reader *reader, io_clip_origin *out);
-/* The notes of its frames, in a new array that *origin borrows; NULL when there are none. */
-io_frame_note *io_mcap_read_notes(io_mcap_reader *reader, io_clip_origin *origin);
+/* A list that grows; `size` of an item is given with every call. */
+typedef struct io_mcap_list {
+    void *items;
+    int32_t count, capacity;
+} io_mcap_list;
+
+/* Room for one more at the end (then counted), or NULL. */
+void *io_mcap_list_add(io_mcap_list *list, size_t size);
+
+typedef struct io_mcap_schema {
+    uint16_t id;
+    io_ros_type type;
+    char name[64]; /* of type IO_ROS_OTHER: of pictures that are not read */
+} io_mcap_schema;
+
+typedef struct io_mcap_chunk {
+    uint64_t offset; /* of the record */
+    bool is_bad;     /* and was told */
+} io_mcap_chunk;
+
+/* Two, since the depth and the colour of a frame may lie in neighbours. */
+#define IO_MCAP_CACHED 2
+
+typedef struct io_mcap_cached {
+    int32_t chunk; /* -1 = none */
+    uint64_t used; /* when, in calls */
+    io_buffer buffer;
+    size_t size;
+} io_mcap_cached;
+
+#define IO_MCAP_METADATA_MAX 8192
+
+struct io_mcap_reader {
+    io_file file;
+    uint64_t size; /* of the file */
+    io_mcap_compressor *compressor;
+    io_mcap_list schemas, channels, chunks, messages;
+    io_buffer packed; /* a chunk before it is decompressed, a summary, a block of indexes */
+    io_buffer loose;  /* a message outside chunks */
+    io_buffer plain;  /* a message that was compressed by itself */
+    io_mcap_cached cache[IO_MCAP_CACHED];
+    uint64_t calls;
+    int32_t bad_chunks;
+    bool lists_all;                      /* Statistics: as many messages as there are */
+    bool is_to_end;                      /* a walk came to the end of the data */
+    bool is_full;                        /* more messages than are listed */
+    bool lacks_memory;                   /* a list could not grow */
+    char strangers[512];                 /* topics of pictures that are not read */
+    char metadata[IO_MCAP_METADATA_MAX]; /* key, 0, value, 0, ..., 0 */
+};
+
+/* Bytes of the file; false when they are not all there. */
+bool io_mcap_read_at(const io_mcap_reader *reader, uint64_t offset, void *out, size_t size);
+/* The same into a buffer of the reader. */
+rlf_result io_mcap_read_block(const io_mcap_reader *reader, uint64_t offset, uint64_t size,
+                              io_buffer *buffer);
+
+/* -1 = none of that id. */
+int32_t io_mcap_find_channel(const io_mcap_reader *reader, uint16_t id);
+
+/* Brings the messages into order: by channel, then by time. */
+void io_mcap_sort(io_mcap_reader *reader);
+
+/* Records that say what is in the file; others are passed over. `chunk` -1: in the file itself. */
+void io_mcap_take_schema(io_mcap_reader *reader, io_mcap_cursor record);
+void io_mcap_take_channel(io_mcap_reader *reader, io_mcap_cursor record);
+void io_mcap_take_metadata(io_mcap_reader *reader, io_mcap_cursor record);
+void io_mcap_list_message(io_mcap_reader *reader, uint16_t channel_id, uint64_t time, int32_t chunk,
+                          uint64_t offset);
+
+/* Chunk `index` decompressed and checked; NULL when it is damaged, which is told once for all. */
+const io_mcap_cached *io_mcap_load_chunk(io_mcap_reader *reader, int32_t index);
+/* Lists what is in a chunk by looking into it. */
+void io_mcap_walk_chunk(io_mcap_reader *reader, int32_t index);
+
+typedef enum io_mcap_summary {
+    IO_MCAP_SUMMARY_READ = 0,
+    IO_MCAP_SUMMARY_NONE,      /* closed, and without an index of its chunks, as it may be */
+    IO_MCAP_SUMMARY_DAMAGED,   /* closed, but what it says is not to be trusted */
+    IO_MCAP_SUMMARY_NOT_CLOSED /* the end is not that of an MCAP file */
+} io_mcap_summary;
+
+/* Lists the file from its summary, with the messages that are in no chunk. */
+io_mcap_summary io_mcap_read_summary(io_mcap_reader *reader);
+/* Lists the file from its beginning, up to *out_end. False when it does not begin as one. */
+bool io_mcap_scan(io_mcap_reader *reader, uint64_t *out_end);
 
 #endif

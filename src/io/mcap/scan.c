@@ -1,5 +1,5 @@
 /* What is in an MCAP file: from its summary, or from its records one after the other. */
-#include "io/mcap/reader.h"
+#include "io/mcap/read.h"
 
 #include <zlib.h>
 
@@ -17,8 +17,7 @@ static int32_t add_chunk(io_mcap_reader *reader, uint64_t offset)
     return reader->chunks.count - 1;
 }
 
-/* ---- from record to record --------------------------------------------------------------------
- */
+/* ---- from record to record ------------------------------------------------------------------ */
 
 static void take_loose_message(io_mcap_reader *reader, uint64_t offset)
 {
@@ -92,8 +91,7 @@ static uint64_t walk(io_mcap_reader *reader,
     return offset;
 }
 
-/* ---- with a summary ---------------------------------------------------------------------------
- */
+/* ---- with a summary ------------------------------------------------------------------------- */
 
 /* False when the block is not one of whole MessageIndex records. */
 static bool list_indexes(io_mcap_reader *reader, int32_t chunk, uint64_t offset, uint64_t size)
@@ -267,8 +265,7 @@ io_mcap_summary io_mcap_read_summary(io_mcap_reader *reader)
     return result;
 }
 
-/* ---- without one ------------------------------------------------------------------------------
- */
+/* ---- without one ---------------------------------------------------------------------------- */
 
 bool io_mcap_scan(io_mcap_reader *reader, uint64_t *out_end)
 {

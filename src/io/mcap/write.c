@@ -12,8 +12,7 @@
 
 const uint8_t io_mcap_magic[IO_MCAP_MAGIC_SIZE] = {0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
 
-/* ---- records ----------------------------------------------------------------------------------
- */
+/* ---- records -------------------------------------------------------------------------------- */
 
 size_t io_mcap_begin_record(io_byte_buffer *b, io_mcap_op op)
 {
@@ -41,8 +40,7 @@ void io_mcap_put_text(io_byte_buffer *b, const char *text)
     io_byte_buffer_add(b, text, strlen(text));
 }
 
-/* ---- the file ---------------------------------------------------------------------------------
- */
+/* ---- the file ------------------------------------------------------------------------------- */
 
 rlf_result io_mcap_fail_write(const io_mcap_writer *w)
 {
@@ -134,8 +132,7 @@ rlf_result io_mcap_writer_create(const char *path, io_mcap_compression compressi
     return RLF_OK;
 }
 
-/* ---- what goes before the messages -------------------------------------------------------------
- */
+/* ---- what goes before the messages ---------------------------------------------------------- */
 
 /* The record also stands in the summary. */
 static void add_twice(io_mcap_writer *w, const io_byte_buffer *b, size_t from)
@@ -202,8 +199,7 @@ void io_mcap_add_metadata(io_mcap_writer *w, const char *name, const io_mcap_pai
     w->metadata_count++;
 }
 
-/* ---- messages and chunks -----------------------------------------------------------------------
- */
+/* ---- messages and chunks -------------------------------------------------------------------- */
 
 io_byte_buffer *io_mcap_begin(io_mcap_writer *w, uint16_t channel, int64_t time_ns)
 {

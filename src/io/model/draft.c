@@ -248,9 +248,7 @@ static rlf_result decode(io_model_draft *d, const char *name, const io_bytes *em
         return io_picture_decode(embedded, picture);
     }
     rlf_result result = io_model_read_beside(d, name, &buffer, &bytes);
-    if (result == RLF_OK) {
-        result = io_picture_decode(&bytes, picture);
-    }
+    result = result == RLF_OK ? io_picture_decode(&bytes, picture) : result;
     io_buffer_free(&buffer);
     return result;
 }

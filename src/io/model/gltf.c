@@ -152,9 +152,7 @@ static rlf_result find_texture(gltf *g, const json_t *image, int32_t *out)
     }
     (void)snprintf(name, sizeof(name), "picture at %p", (const void *)image);
     bytes.name = "a picture in the file";
-    if (result == RLF_OK) {
-        result = io_model_texture(g->draft, name, &bytes, out);
-    }
+    result = result == RLF_OK ? io_model_texture(g->draft, name, &bytes, out) : result;
     io_buffer_free(&buffer);
     return result;
 }
@@ -329,12 +327,8 @@ static rlf_result add_side(const gltf *g, primitive *p, int32_t triangles)
     if (result == RLF_OK && p->has_uvs) {
         result = fill(g, p, &p->uv, set_uv);
     }
-    if (result == RLF_OK) {
-        result = io_model_check_vertices(d, p->first);
-    }
-    if (result == RLF_OK) {
-        result = fill_triangles(g, p, triangles);
-    }
+    result = result == RLF_OK ? io_model_check_vertices(d, p->first) : result;
+    result = result == RLF_OK ? fill_triangles(g, p, triangles) : result;
     if (result == RLF_OK && !p->has_normals) {
         result = part_corners(d, p->first, first_triangle);
         result = result == RLF_OK ? io_model_smooth(d, p->first, first_triangle) : result;

@@ -155,12 +155,8 @@ rlf_result gltf_open(gltf *g, const io_bytes *file)
 {
     io_bytes text;
     rlf_result result = find_text(g, file, &text);
-    if (result == RLF_OK) {
-        result = check_values(g, &text);
-    }
-    if (result == RLF_OK) {
-        result = parse(g, &text);
-    }
+    result = result == RLF_OK ? check_values(g, &text) : result;
+    result = result == RLF_OK ? parse(g, &text) : result;
     if (result != RLF_OK) {
         return result;
     }

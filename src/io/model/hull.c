@@ -260,16 +260,12 @@ rlf_result io_hull_load(const char *path, rlf_hull **out, io_obj_facts *out_fact
     io_mesh mesh = {0};
     rlf_result result =
         io_file_read(path, IO_OBJ_FILE_MAX, "check the name of the model", &buffer, &file);
-    if (result == RLF_OK) {
-        result = io_obj_parse(&file, &obj);
-    }
+    result = result == RLF_OK ? io_obj_parse(&file, &obj) : result;
     if (result == RLF_OK) {
         facts.has_materials = obj.library_count > 0;
         result = take_mesh(path, &obj, &mesh);
     }
-    if (result == RLF_OK) {
-        result = io_hull_from_mesh(path, &mesh, out, &facts.centre);
-    }
+    result = result == RLF_OK ? io_hull_from_mesh(path, &mesh, out, &facts.centre) : result;
     io_mesh_free(&mesh);
     io_obj_free(&obj);
     io_buffer_free(&buffer);

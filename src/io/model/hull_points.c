@@ -154,12 +154,8 @@ rlf_result io_hull_of_points(const char *name, const rlf_vec3 *points, int32_t c
     }
     io_mesh mesh;
     rlf_result result = io_hull_wrap(name, points, count, &mesh);
-    if (result == RLF_OK) {
-        result = reduce(name, &mesh, vertex_limit);
-    }
-    if (result == RLF_OK) {
-        result = io_hull_from_mesh(name, &mesh, out, out_centre);
-    }
+    result = result == RLF_OK ? reduce(name, &mesh, vertex_limit) : result;
+    result = result == RLF_OK ? io_hull_from_mesh(name, &mesh, out, out_centre) : result;
     io_mesh_free(&mesh);
     return result;
 }

@@ -65,9 +65,7 @@ rlf_result io_model_import(const io_bytes *file, io_model_format format, bool is
     d->left = IO_MODEL_FILE_MAX;
     rlf_result result =
         format == IO_MODEL_OBJ ? io_model_read_obj(d, file) : io_model_read_gltf(d, file);
-    if (result == RLF_OK) {
-        result = build(d, out);
-    }
+    result = result == RLF_OK ? build(d, out) : result;
     for (int32_t i = 0; i < d->image_count; i++) {
         rlf_free(d->images[i].data);
     }
@@ -92,9 +90,7 @@ rlf_result rlf_model_load(const char *path, rlf_model **out)
     io_bytes file;
     rlf_result result =
         io_file_read(path, IO_MODEL_FILE_MAX, "check the name of the model", &buffer, &file);
-    if (result == RLF_OK) {
-        result = io_model_import(&file, format, false, out);
-    }
+    result = result == RLF_OK ? io_model_import(&file, format, false, out) : result;
     io_buffer_free(&buffer);
     return result;
 }

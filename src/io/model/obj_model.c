@@ -138,9 +138,7 @@ static rlf_result add_parts(io_model_draft *d, const io_obj *obj, const material
     for (int32_t i = -1; i < obj->material_count && result == RLF_OK; i++) {
         result = add_part(d, obj, i, i >= 0 ? &materials[i] : &plain);
     }
-    if (result == RLF_OK) {
-        result = io_model_check_vertices(d, 0);
-    }
+    result = result == RLF_OK ? io_model_check_vertices(d, 0) : result;
     return result == RLF_OK ? io_model_smooth(d, 0, 0) : result;
 }
 
@@ -159,9 +157,7 @@ rlf_result io_model_read_obj(io_model_draft *d, const io_bytes *file)
     for (int32_t i = 0; i < obj.library_count && result == RLF_OK; i++) {
         result = load_library(d, &obj, obj.libraries[i], materials);
     }
-    if (result == RLF_OK) {
-        result = add_parts(d, &obj, materials);
-    }
+    result = result == RLF_OK ? add_parts(d, &obj, materials) : result;
     rlf_free(materials);
     io_obj_free(&obj);
     return result;

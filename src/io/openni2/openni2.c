@@ -1,11 +1,73 @@
 /* Cameras through OpenNI2: PrimeSense, Asus Xtion, older Orbbec. */
+#define _POSIX_C_SOURCE 200809L
 #include "io/openni2/openni2.h"
 #include "io/source/backends.h"
 #include "io/live/driver.h"
 
+#include <pthread.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
+
+/* ---- the library ------------------------------------------------------------------------- */
+
+static openni2_api functions;
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+
+static const io_symbol symbols[] = {
+#define SYMBOL(result, member, name, parameters) {"oni" name, offsetof(openni2_api, member), false},
+    OPENNI2_FUNCTIONS(SYMBOL)
+#undef SYMBOL
+};
+
+/* OPENNI2_REDIST is what the installers of vendors set: their folder with the library and the
+ * drivers. */
+static const char *const names[] = {"libOpenNI2.so.0", "libOpenNI2.so", NULL};
+static io_library library = {
+    .variable = "RELIEF_OPENNI2_LIBRARY",
+    .folder = "OPENNI2_REDIST",
+    .names = names,
+    .cure = "apt install libopenni2-0, or set OPENNI2_REDIST to the folder of the vendor's own",
+    .symbols = symbols,
+    .symbol_count = (int32_t)(sizeof(symbols) / sizeof(symbols[0])),
+    .table = &functions};
+
+/* Why the library cannot be used and what to do, or NULL when it can. */
+static const char *openni2_unavailable(void)
+{
+    const char *reason;
+    (void)io_library_get(&library, &reason);
+    return reason;
+}
+
+rlf_result openni2_begin(const char *who, const openni2_api **out)
+{
+    const char *reason = openni2_unavailable();
+    if (reason != NULL) {
+        return rlf_fail(RLF_ERROR_UNSUPPORTED, "%s: %s", who, reason);
+    }
+    pthread_mutex_lock(&lock);
+    const int status = functions.initialize(OPENNI2_VERSION);
+    if (status != OPENNI2_OK) {
+        functions.shutdown(); /* a failed call was counted all the same */
+    }
+    pthread_mutex_unlock(&lock);
+    if (status != OPENNI2_OK) {
+        return rlf_fail(RLF_ERROR_DEVICE,
+                        "%s: OpenNI2 cannot start (status %d): check that its drivers lie in the "
+                        "folder OpenNI2/Drivers beside libOpenNI2.so.0",
+                        who, status);
+    }
+    *out = &functions;
+    return RLF_OK;
+}
+
+void openni2_end(void)
+{
+    pthread_mutex_lock(&lock);
+    functions.shutdown();
+    pthread_mutex_unlock(&lock);
+}
 
 typedef struct camera {
     char source[512]; /* as the user gave it, for error lines */
@@ -151,9 +213,7 @@ static rlf_result open_device(camera *c, const rlf_address *address)
 {
     openni2_callbacks callbacks = {.disconnected = on_disconnected, .state_changed = on_state};
     rlf_result result = openni2_begin(address->source, &c->device.api);
-    if (result == RLF_OK) {
-        result = openni2_device_open(address, &c->wish, &c->device);
-    }
+    result = result == RLF_OK ? openni2_device_open(address, &c->wish, &c->device) : result;
     if (result == RLF_OK &&
         c->device.api->add_callbacks(&callbacks, c, &c->callbacks) != OPENNI2_OK) {
         c->callbacks = NULL;
@@ -173,9 +233,7 @@ static uint32_t flags_of(const openni2_device *device)
 static rlf_result open_all(camera *c, const rlf_address *address)
 {
     rlf_result result = open_device(c, address);
-    if (result == RLF_OK) {
-        result = openni2_make_rig(address, &c->device, &c->rig);
-    }
+    result = result == RLF_OK ? openni2_make_rig(address, &c->device, &c->rig) : result;
     if (result == RLF_OK) {
         result = io_stream_pair_init(&c->pair, &c->rig, openni2_units(&c->device),
                                      c->device.depth.mode.fps);

@@ -99,9 +99,6 @@ typedef struct openni2_api {
 #undef OPENNI2_MEMBER
 } openni2_api;
 
-/* Why the library cannot be used and what to do, or NULL when it can. */
-const char *openni2_unavailable(void);
-
 /* Loads the library and looks for devices. Error lines start with `who`; on failure *out is left
  * alone. Each call that succeeds needs one of openni2_end. Thread-safety: safe. */
 rlf_result openni2_begin(const char *who, const openni2_api **out);

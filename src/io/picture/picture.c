@@ -49,9 +49,7 @@ static rlf_result read_with(decode_fn decode, const char *path, io_picture *out)
     *out = (io_picture){0};
     rlf_result result =
         io_file_read(path, IO_PICTURE_FILE_MAX, "check the name of the picture", &buffer, &file);
-    if (result == RLF_OK) {
-        result = decode(&file, out);
-    }
+    result = result == RLF_OK ? decode(&file, out) : result;
     io_buffer_free(&buffer);
     return result;
 }

@@ -45,12 +45,6 @@ void io_yuv_to_rgb(int32_t y, int32_t u, int32_t v, bool is_full_range, uint8_t 
  * half as many again as the height where planes of colour follow. */
 rlf_result io_pixels_check(const io_pixels *in, int32_t pixel_size, int64_t row_count);
 
-/* Pictures straight from a sensor with a colour filter over each pixel (Bayer pattern). */
-
-/* Row y as RGBA: each missing colour is the mean of that colour's nearest pixels (bilinear). The
- * first red pixel is at (red_x, red_y), each 0 or 1. */
-void io_bayer_row(const io_pixels *in, int32_t red_x, int32_t red_y, int32_t y, uint8_t *out);
-
 /* Lossless code for depth pictures: RVL (Wilson, "Fast Lossless Depth Image Compression", 2017). */
 
 #define IO_RVL_WINDOW 4096 /* all values of three nibbles */

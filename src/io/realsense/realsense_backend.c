@@ -168,9 +168,7 @@ static rlf_result find_device(realsense *r, const char *serial)
     rs2_device_list *list = error == NULL ? r->api->query_devices(r->context, &error) : NULL;
     rlf_result result = io_realsense_check(r->api, &error, RLF_ERROR_DEVICE, r->source,
                                            "check the permissions of /dev/bus/usb");
-    if (result == RLF_OK) {
-        result = take_device(r, list, serial);
-    }
+    result = result == RLF_OK ? take_device(r, list, serial) : result;
     if (list != NULL) {
         r->api->delete_device_list(list);
     }
@@ -183,18 +181,12 @@ static rlf_result start(realsense *r, const rlf_address *address)
     io_mode color = {0};
     const char *serial = rlf_address_get(address, "serial");
     rlf_result result = io_mode_get(address, "mode", &depth);
-    if (result == RLF_OK) {
-        result = io_mode_get(address, "color", &color);
-    }
+    result = result == RLF_OK ? io_mode_get(address, "color", &color) : result;
     if (result == RLF_OK) {
         result = find_device(r, serial != NULL ? serial : address->place);
     }
-    if (result == RLF_OK) {
-        result = io_realsense_start(r, &depth, &color);
-    }
-    if (result == RLF_OK) {
-        result = io_live_use_rig(address, &r->rig);
-    }
+    result = result == RLF_OK ? io_realsense_start(r, &depth, &color) : result;
+    result = result == RLF_OK ? io_live_use_rig(address, &r->rig) : result;
     return result == RLF_OK ? io_live_make_color(&r->rig, &r->color) : result;
 }
 

@@ -275,9 +275,7 @@ rlf_result io_realsense_start(realsense *r, const io_mode *depth, const io_mode 
     rlf_result result =
         io_realsense_check(r->api, &error, RLF_ERROR_DEVICE, r->source, "plug it in again");
     rs2_pipeline_profile *profile = NULL;
-    if (result == RLF_OK) {
-        result = start_streams(r, depth, color, &profile);
-    }
+    result = result == RLF_OK ? start_streams(r, depth, color, &profile) : result;
     if (result == RLF_OK) {
         r->is_streaming = true;
         result = read_rig(r, profile);

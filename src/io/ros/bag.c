@@ -1,5 +1,5 @@
 /* ROS 1 bags: opening and messages. */
-#include "io/ros/bag_parts.h"
+#include "io/ros/bag.h"
 
 #define MAGIC "#ROSBAG V2.0\n"
 #define CHUNKS_MAX (4 << 20)
@@ -200,12 +200,8 @@ rlf_result bag_open(const char *path, bag **out)
     }
     self->caches[0].chunk = self->caches[1].chunk = -1;
     rlf_result result = io_file_open(&self->file, path, "check the name");
-    if (result == RLF_OK) {
-        result = check_magic(self);
-    }
-    if (result == RLF_OK) {
-        result = scan(self);
-    }
+    result = result == RLF_OK ? check_magic(self) : result;
+    result = result == RLF_OK ? scan(self) : result;
     if (result != RLF_OK) {
         bag_close(&self);
         return result;

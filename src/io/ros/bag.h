@@ -3,6 +3,7 @@
 #define RLF_IO_ROS_BAG_H
 
 #include "io/file.h"
+#include "io/little.h"
 
 #define BAG_TEXT_MAX 256
 
@@ -43,5 +44,82 @@ bool bag_is_fast(const bag *self);
 
 /* A message's bytes; valid until the next call. The name is the bag's. */
 rlf_result bag_message(bag *self, const bag_entry *entry, io_bytes *out);
+
+/* ---- What the parts of the reader share ---- */
+
+/* A chunk that unpacks to more is passed over: rosbag begins a new one after 768 KiB, so only a
+ * single huge message makes one large. */
+#define BAG_CHUNK_MAX ((uint32_t)64 << 20)
+
+enum { BAG_OP_MESSAGE = 2, BAG_OP_INDEX = 4, BAG_OP_CHUNK = 5, BAG_OP_CONNECTION = 7 };
+
+typedef enum bag_packing { BAG_PACKING_NONE, BAG_PACKING_LZ4, BAG_PACKING_BZ2 } bag_packing;
+
+typedef struct bag_chunk {
+    int64_t position;           /* of its bytes in the file */
+    uint32_t packed_size, size; /* in the file, and unpacked */
+    bag_packing packing;
+    int64_t index_begin, index_end; /* the index records behind it; the same = none */
+} bag_chunk;
+
+/* An unpacked chunk that is kept. */
+typedef struct bag_cache {
+    int32_t chunk; /* -1 = none */
+    uint64_t used; /* larger = later */
+    io_buffer bytes;
+    size_t size;
+} bag_cache;
+
+struct bag {
+    io_file file;
+    bag_chunk *chunks;
+    int32_t chunk_count, chunk_capacity;
+    bag_connection *connections;
+    int32_t connection_count, connection_capacity;
+    bag_entry *entries;
+    int32_t entry_count, entry_capacity;
+    bag_cache caches[2]; /* depth and colour of one time may lie in neighbouring chunks */
+    uint64_t clock;
+    io_buffer packed, message;
+};
+
+/* A record's header and where its data is. */
+typedef struct bag_record {
+    int op; /* -1 = none given */
+    uint32_t connection, count, size;
+    int64_t time_ns;
+    char topic[BAG_TEXT_MAX];
+    char compression[16];
+    int64_t data; /* offset of the data from the start of the record */
+    uint32_t data_size;
+} bag_record;
+
+/* Reads the fields of a record's header. */
+void bag_parse_header(cursor fields, bag_record *out);
+
+/* A record in memory; false when it is cut short. The cursor moves behind it. */
+bool bag_parse_record(cursor *c, bag_record *out, cursor *out_data);
+
+/* Reads exactly `size` bytes; false at the end of the file. */
+bool bag_read_at(const bag *self, int64_t position, void *out, size_t size);
+
+/* A record in the file, without its data; false when it is cut short. */
+bool bag_read_record(bag *self, int64_t position, bag_record *out);
+
+rlf_result bag_add_connection(bag *self, const bag_record *record, cursor data);
+bag_connection *bag_find_connection(bag *self, uint32_t id);
+
+/* Makes room for one more element; `limit` bounds the memory that a hostile file can ask for. */
+rlf_result bag_grow(const bag *self, void **array, int32_t count, int32_t *capacity, size_t size,
+                    int32_t limit);
+
+/* The unpacked chunk; valid until two others were asked for. */
+rlf_result bag_unpack(bag *self, int32_t chunk, io_bytes *out);
+
+/* Whether this build can unpack such chunks; else RLF_ERROR_UNSUPPORTED with what to do. */
+rlf_result bag_check_packing(const char *path, bag_packing packing);
+
+/* Unpacks `in` into exactly out_size bytes. */
+rlf_result bag_decompress(const io_bytes *in, bag_packing packing, uint8_t *out, size_t out_size);
 
 #endif

@@ -1,5 +1,5 @@
 /* Chunks of a bag, unpacked. */
-#include "io/ros/bag_parts.h"
+#include "io/ros/bag.h"
 
 #include "base/messages.h"
 
@@ -103,9 +103,7 @@ static rlf_result unpack_into(bag *self, int32_t index, bag_cache *cache)
                         self->file.path, (unsigned)chunk->packed_size, (unsigned)chunk->size);
     }
     rlf_result result = io_buffer_reserve(&cache->bytes, chunk->size);
-    if (result == RLF_OK) {
-        result = io_buffer_reserve(&self->packed, chunk->packed_size);
-    }
+    result = result == RLF_OK ? io_buffer_reserve(&self->packed, chunk->packed_size) : result;
     if (result != RLF_OK) {
         return result;
     }

@@ -1,5 +1,5 @@
 /* Lists of a bag's messages. */
-#include "io/ros/bag_parts.h"
+#include "io/ros/bag.h"
 
 #include <stdlib.h>
 

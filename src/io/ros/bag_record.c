@@ -1,5 +1,5 @@
 /* Records of a bag: a header of named fields, then data. */
-#include "io/ros/bag_parts.h"
+#include "io/ros/bag.h"
 #include "io/little.h"
 
 /* Headers hold a topic's name and a few numbers. */

@@ -123,9 +123,7 @@ rlf_result io_ros_list_pictures(io_ros_recording *r, bool has_stamps)
 {
     r->color.channel = r->rig.has_color ? r->color.channel : -1;
     rlf_result result = list_shots(&r->log, &r->depth);
-    if (result == RLF_OK) {
-        result = list_shots(&r->log, &r->color);
-    }
+    result = result == RLF_OK ? list_shots(&r->log, &r->color) : result;
     if (result == RLF_OK && has_stamps) {
         use_stamps(r);
         (void)io_shots_sort(&r->depth.shots);

@@ -17,8 +17,7 @@ typedef struct rosbag {
     char strangers[512];
 } rosbag;
 
-/* ---- the log ----------------------------------------------------------------------------------
- */
+/* ---- the log -------------------------------------------------------------------------------- */
 
 static io_ros_channel channel_at(void *self, int32_t index)
 {
@@ -66,8 +65,7 @@ static void rosbag_destroy(void *self)
     rlf_free(b);
 }
 
-/* ---- RealSense: /device_0/sensor_0/Depth_0/image/data and its neighbours -----------------------
- */
+/* ---- RealSense: /device_0/sensor_0/Depth_0/image/data and its neighbours -------------------- */
 
 /* How many parts of the path two topics begin with alike. */
 static int32_t common_parts(const char *a, const char *b)
@@ -170,8 +168,7 @@ static void describe(const rosbag *b, rlf_opened *out)
              serial[0] != '\0' ? "serial number " : "", serial[0] != '\0' ? serial : depth);
 }
 
-/* ---- opening ----------------------------------------------------------------------------------
- */
+/* ---- opening -------------------------------------------------------------------------------- */
 
 static rlf_result open_recording(const rlf_address *address, rosbag *b, rlf_opened *out)
 {
@@ -192,12 +189,8 @@ static rlf_result open_recording(const rlf_address *address, rosbag *b, rlf_open
     if (result == RLF_OK && b->ros.log.has_own_poses && !b->ros.has_given_rig) {
         read_realsense(b);
     }
-    if (result == RLF_OK) {
-        result = io_ros_list_pictures(&b->ros, bag_is_fast(b->bag));
-    }
-    if (result == RLF_OK) {
-        result = io_ros_open_clip(&b->ros, address, &def, out);
-    }
+    result = result == RLF_OK ? io_ros_list_pictures(&b->ros, bag_is_fast(b->bag)) : result;
+    result = result == RLF_OK ? io_ros_open_clip(&b->ros, address, &def, out) : result;
     if (result == RLF_OK) {
         describe(b, out);
     }

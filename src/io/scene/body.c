@@ -14,15 +14,9 @@ static rlf_result read_motion(const io_json_object *body, rlf_body_def *def)
     static const io_json_field spin = {"angular_velocity", "three numbers of rad/s", -FINITE_MAX,
                                        FINITE_MAX, false};
     rlf_result result = io_scene_read_vec3(body, &position, &def->position);
-    if (result == RLF_OK) {
-        result = io_scene_read_orientation(body, &def->orientation);
-    }
-    if (result == RLF_OK) {
-        result = io_scene_read_vec3(body, &velocity, &def->velocity);
-    }
-    if (result == RLF_OK) {
-        result = io_scene_read_vec3(body, &spin, &def->angular_velocity);
-    }
+    result = result == RLF_OK ? io_scene_read_orientation(body, &def->orientation) : result;
+    result = result == RLF_OK ? io_scene_read_vec3(body, &velocity, &def->velocity) : result;
+    result = result == RLF_OK ? io_scene_read_vec3(body, &spin, &def->angular_velocity) : result;
     return result;
 }
 
@@ -51,13 +45,9 @@ static rlf_result read_material(const io_json_object *body, rlf_body_def *def)
         }
     }
     rlf_result result = io_json_get_bool(body, &collides, &def->collides_with_bodies);
-    if (result == RLF_OK) {
-        result = io_json_get_bool(body, &kinematic, &def->is_kinematic);
-    }
+    result = result == RLF_OK ? io_json_get_bool(body, &kinematic, &def->is_kinematic) : result;
     double c[3] = {def->color[0], def->color[1], def->color[2]};
-    if (result == RLF_OK) {
-        result = io_json_get_numbers(body, &color, c, 3);
-    }
+    result = result == RLF_OK ? io_json_get_numbers(body, &color, c, 3) : result;
     for (int i = 0; i < 3; i++) {
         def->color[i] = (float)c[i];
     }
@@ -83,15 +73,9 @@ static rlf_result read_body(const io_json_object *body, const io_scene_reader *r
         return io_json_fail(body, unknown, "is not a known key: see the list in docs/formats.md");
     }
     rlf_result result = io_scene_read_name(body, def->name);
-    if (result == RLF_OK) {
-        result = read_motion(body, def);
-    }
-    if (result == RLF_OK) {
-        result = read_material(body, def);
-    }
-    if (result == RLF_OK) {
-        result = io_scene_read_shape(body, reader, &def->shape, &def->look);
-    }
+    result = result == RLF_OK ? read_motion(body, def) : result;
+    result = result == RLF_OK ? read_material(body, def) : result;
+    result = result == RLF_OK ? io_scene_read_shape(body, reader, &def->shape, &def->look) : result;
     /* A model has colours of its own: a body's colour tints it only when it is given. */
     if (def->look.model != NULL && json_object_get(body->value, "color") == NULL) {
         def->color[0] = def->color[1] = def->color[2] = 1.0f;
@@ -157,9 +141,7 @@ rlf_result io_scene_read_bodies(const io_json_object *top, io_scene_reader *read
             return io_json_fail(&body, "", "must be an object {...}");
         }
         result = io_scene_read_body(&body, reader);
-        if (result == RLF_OK) {
-            result = io_scene_note_body(&body, reader);
-        }
+        result = result == RLF_OK ? io_scene_note_body(&body, reader) : result;
     }
     return result;
 }

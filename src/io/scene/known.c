@@ -91,9 +91,7 @@ static rlf_result read_place(const io_json_object *object, rlf_known_def *def)
         return io_json_fail(object, "orientation", "needs a \"position\"");
     }
     rlf_result result = io_scene_read_vec3(object, &position, &def->T_world_model.p);
-    if (result == RLF_OK) {
-        result = io_scene_read_orientation(object, &def->T_world_model.q);
-    }
+    result = result == RLF_OK ? io_scene_read_orientation(object, &def->T_world_model.q) : result;
     return result == RLF_OK ? read_points(object, def) : result;
 }
 
@@ -116,18 +114,12 @@ static rlf_result read_known(const io_json_object *object, const io_scene_reader
     if (result == RLF_OK && def->name[0] == '\0') {
         result = io_json_fail(object, "name", "is missing: a known object needs one");
     }
-    if (result == RLF_OK) {
-        result = io_json_get_bool(object, &refine, &def->refine);
-    }
-    if (result == RLF_OK) {
-        result = io_json_get_bool(object, &collides, &def->collides);
-    }
+    result = result == RLF_OK ? io_json_get_bool(object, &refine, &def->refine) : result;
+    result = result == RLF_OK ? io_json_get_bool(object, &collides, &def->collides) : result;
     if (result == RLF_OK) {
         result = io_json_get_number(object, &restitution, &def->restitution);
     }
-    if (result == RLF_OK) {
-        result = io_json_get_number(object, &friction, &def->friction);
-    }
+    result = result == RLF_OK ? io_json_get_number(object, &friction, &def->friction) : result;
     if (result == RLF_OK) {
         result = io_scene_read_shape(object, reader, &def->shape, &def->look);
     }
@@ -175,9 +167,7 @@ rlf_result io_known_read(const io_json_object *top, const char *folder, rlf_scen
         *def = rlf_known_def_default();
         const io_scene_reader reader = {.folder = folder, .scene = scene};
         rlf_result result = read_known(&object, &reader, def);
-        if (result == RLF_OK) {
-            result = check_name_is_new(&object, scene, def->name);
-        }
+        result = result == RLF_OK ? check_name_is_new(&object, scene, def->name) : result;
         scene->known_count++; /* also when it failed: its hull must be freed */
         if (result != RLF_OK) {
             return result;

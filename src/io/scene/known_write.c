@@ -112,12 +112,8 @@ rlf_result rlf_scene_save_known(const char *scene_path, const rlf_known_def *kno
     json_t *document = NULL;
     rlf_result result =
         io_file_read(scene_path, IO_JSON_FILE_MAX, "check the name of the scene", &buffer, &file);
-    if (result == RLF_OK) {
-        result = io_json_parse(&file, &document);
-    }
-    if (result == RLF_OK) {
-        result = set_poses(document, known, count);
-    }
+    result = result == RLF_OK ? io_json_parse(&file, &document) : result;
+    result = result == RLF_OK ? set_poses(document, known, count) : result;
     if (result == RLF_OK) {
         result = move_models(json_object_get(document, "bodies"), scene_path, out_path);
     }
@@ -127,9 +123,7 @@ rlf_result rlf_scene_save_known(const char *scene_path, const rlf_known_def *kno
     if (result == RLF_OK) {
         result = move_models(json_object_get(document, "known_objects"), scene_path, out_path);
     }
-    if (result == RLF_OK) {
-        result = write_document(document, out_path);
-    }
+    result = result == RLF_OK ? write_document(document, out_path) : result;
     json_decref(document);
     io_buffer_free(&buffer);
     return result;

@@ -80,9 +80,7 @@ static rlf_result find_model(const io_json_object *body, const io_scene_reader *
     }
     rlf_model *model = NULL;
     rlf_result result = rlf_model_load(path, &model);
-    if (result == RLF_OK) {
-        result = keep_model(reader->scene, model);
-    }
+    result = result == RLF_OK ? keep_model(reader->scene, model) : result;
     *out = result == RLF_OK ? model : NULL;
     return result;
 }
@@ -121,9 +119,7 @@ rlf_result io_scene_read_look(const io_json_object *body, const io_scene_reader 
     }
     double scale = 0.0;
     result = io_path_join(reader->folder, name, path);
-    if (result == RLF_OK) {
-        result = find_model(body, reader, path, &model);
-    }
+    result = result == RLF_OK ? find_model(body, reader, path, &model) : result;
     if (result == RLF_OK) {
         scale = io_model_fit(&model->box, extents_of(shape));
         result = scale > 0.0 ? RLF_OK : fail_extent(path);
@@ -248,9 +244,7 @@ static rlf_result make_hull(const io_json_object *body, const io_scene_reader *r
     }
     char path[IO_PATH_MAX];
     rlf_result result = io_path_join(reader->folder, name, path);
-    if (result == RLF_OK) {
-        result = read_hull_file(body, reader, path, size, out);
-    }
+    result = result == RLF_OK ? read_hull_file(body, reader, path, size, out) : result;
     return result == RLF_OK ? RLF_OK : fail_key(body, "model", result);
 }
 
@@ -267,9 +261,7 @@ rlf_result io_scene_read_hull(const io_json_object *body, const io_scene_reader 
                             "from \"vertices\"",
                             has_vertices ? "there beside \"vertices\"" : "missing");
     }
-    if (result == RLF_OK) {
-        result = make_hull(body, reader, name, size, &made);
-    }
+    result = result == RLF_OK ? make_hull(body, reader, name, size, &made) : result;
     out->hull = made.hull; /* the scene's also when its look failed */
     *out_look = made.look;
     return result;

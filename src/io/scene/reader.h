@@ -51,9 +51,6 @@ rlf_result io_scene_read_hull(const io_json_object *object, const io_scene_reade
 rlf_result io_scene_read_look(const io_json_object *object, const io_scene_reader *reader,
                               const rlf_shape *shape, rlf_look *out);
 
-/* on.c: the object "on". */
-rlf_result io_on_read(const io_json_object *top, rlf_scene *scene);
-
 /* known.c: the list "known_objects". What is read is the scene's also on failure. */
 rlf_result io_known_read(const io_json_object *top, const char *folder, rlf_scene *scene);
 

@@ -69,9 +69,7 @@ rlf_result io_scene_read_shape(const io_json_object *body, const io_scene_reader
                                          SIZE_MAX_M, true};
     const shape_keys *shape = NULL;
     rlf_result result = find_shape(body, &shape);
-    if (result == RLF_OK) {
-        result = check_shape_keys(body, shape);
-    }
+    result = result == RLF_OK ? check_shape_keys(body, shape) : result;
     if (result != RLF_OK) {
         return result;
     }

@@ -133,15 +133,9 @@ static rlf_result read_pattern(const io_json_object *entry, const rlf_scene *sce
     static const io_json_field seed = {"seed", "a whole number, 0 to 2147483647", 0, INT32_MAX,
                                        false};
     rlf_result result = read_kind(entry, &out->kind);
-    if (result == RLF_OK) {
-        result = read_count(entry, scene, out);
-    }
-    if (result == RLF_OK) {
-        result = read_extent(entry, out);
-    }
-    if (result == RLF_OK) {
-        result = io_json_get_integer(entry, &seed, &out->seed);
-    }
+    result = result == RLF_OK ? read_count(entry, scene, out) : result;
+    result = result == RLF_OK ? read_extent(entry, out) : result;
+    result = result == RLF_OK ? io_json_get_integer(entry, &seed, &out->seed) : result;
     out->up = find_up(scene);
     return result;
 }
@@ -187,15 +181,9 @@ static rlf_result read_variety(const io_json_object *entry, spawn *out)
                                            0, 1e6, false};
     static const io_json_field turned = {"turned", "true or false", 0, 0, false};
     rlf_result result = io_scene_read_vec3(entry, &velocity, &out->velocity_spread);
-    if (result == RLF_OK) {
-        result = io_scene_read_vec3(entry, &spin, &out->spin_spread);
-    }
-    if (result == RLF_OK) {
-        result = io_json_get_number(entry, &interval, &out->interval);
-    }
-    if (result == RLF_OK) {
-        result = io_json_get_bool(entry, &turned, &out->is_turned);
-    }
+    result = result == RLF_OK ? io_scene_read_vec3(entry, &spin, &out->spin_spread) : result;
+    result = result == RLF_OK ? io_json_get_number(entry, &interval, &out->interval) : result;
+    result = result == RLF_OK ? io_json_get_bool(entry, &turned, &out->is_turned) : result;
     return result == RLF_OK ? read_colors(entry, out) : result;
 }
 
@@ -242,12 +230,8 @@ static rlf_result read_body(const io_json_object *entry, io_scene_reader *reader
     static const io_json_field field = {"body", "an object as in \"bodies\"", 0, 0, true};
     io_json_object body;
     rlf_result result = io_json_get_object(entry, &field, &body);
-    if (result == RLF_OK) {
-        result = io_scene_reserve(reader, s->pattern.count);
-    }
-    if (result == RLF_OK) {
-        result = io_scene_read_body(&body, reader);
-    }
+    result = result == RLF_OK ? io_scene_reserve(reader, s->pattern.count) : result;
+    result = result == RLF_OK ? io_scene_read_body(&body, reader) : result;
     if (result != RLF_OK) {
         return result;
     }
@@ -259,9 +243,7 @@ static rlf_result read_body(const io_json_object *entry, io_scene_reader *reader
     s->pattern.reach = rlf_shape_radius(&def->shape);
     rlf_vec3 *places = rlf_alloc_array((size_t)s->pattern.count, sizeof(*places));
     result = places != NULL ? io_pattern_place(&s->pattern, places) : RLF_ERROR_MEMORY;
-    if (result == RLF_OK) {
-        result = place_bodies(&body, reader, s, places);
-    }
+    result = result == RLF_OK ? place_bodies(&body, reader, s, places) : result;
     rlf_free(places);
     return result;
 }
@@ -280,9 +262,7 @@ static rlf_result read_entry(const io_json_object *entry, io_scene_reader *reade
     memset(&s, 0, sizeof(s));
     s.pattern.seed = index;
     rlf_result result = read_pattern(entry, reader->scene, &s.pattern);
-    if (result == RLF_OK) {
-        result = read_variety(entry, &s);
-    }
+    result = result == RLF_OK ? read_variety(entry, &s) : result;
     return result == RLF_OK ? read_body(entry, reader, &s) : result;
 }
 

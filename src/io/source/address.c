@@ -1,16 +1,8 @@
 /* SOURCE of a command line, taken apart. */
-#define _POSIX_C_SOURCE 200809L
-#include "io/source/address.h"
+#include "io/file.h"
 #include "io/source/address.h"
 
 #include <string.h>
-#include <sys/stat.h>
-
-static bool exists(const char *path)
-{
-    struct stat status;
-    return stat(path, &status) == 0;
-}
 
 static rlf_result add_key(const char *source, char *text, io_address *out)
 {
@@ -59,7 +51,7 @@ rlf_result io_address_parse(const char *source, io_address *out)
     memcpy(out->text, source, length + 1);
     out->scheme = "";
     out->place = out->text;
-    if (exists(source)) {
+    if (io_path_exists(source)) {
         return RLF_OK;
     }
     size_t scheme = strspn(source, "abcdefghijklmnopqrstuvwxyz0123456789_-");

@@ -62,9 +62,7 @@ static rlf_result add(const char *path)
 {
     const rlf_backend *table = NULL;
     rlf_result result = io_plugin_open(path, &table);
-    if (result == RLF_OK) {
-        result = check_scheme(path, table);
-    }
+    result = result == RLF_OK ? check_scheme(path, table) : result;
     if (result != RLF_OK) {
         return result == RLF_NO_FRAME ? RLF_OK : result;
     }

@@ -1,6 +1,5 @@
 /* The back ends of this build. */
 #include "io/source/backends.h"
-#include "io/source/absent.h"
 
 #include "base/messages.h"
 

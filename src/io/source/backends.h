@@ -32,18 +32,29 @@ const rlf_backend *io_backend_built_in_at(int32_t index);
 /* The shared object that back end `index` came from; NULL = it is built in. */
 const char *io_backend_plugin_path(int32_t index);
 
-/* Makes a source of its parts; they are destroyed when that fails. */
-rlf_result io_source_create(const rlf_opened *opened, rlf_source **out);
-
 /* How a back end's open ends: what it made is destroyed when it failed. `self` NULL = nothing was
  * made. */
 static inline rlf_result io_open_end(rlf_result result, void *self, void (*destroy)(void *))
 {
-    if (result != RLF_OK && self != NULL) {
+    if (result != RLF_OK && self != NULL && destroy != NULL) {
         destroy(self);
     }
     return result;
 }
+
+/* Makes a source of its parts; they are destroyed when that fails. */
+static inline rlf_result io_source_create(const rlf_opened *opened, rlf_source **out)
+{
+    rlf_result result =
+        rlf_source_create_custom(&opened->methods, &opened->info, opened->self, out);
+    return io_open_end(result, opened->self, opened->methods.destroy);
+}
+
+typedef rlf_result (*io_open_fn)(const char *source, rlf_pool *pool, rlf_source **out);
+
+/* Lends it the function that opens what it plays. It cannot call it by name: that function knows
+ * all back ends, this one among them. Thread-safe. */
+void io_simulated_lend_open(io_open_fn opener);
 
 /* ---- Which back end opens a SOURCE ---- */
 
@@ -56,6 +67,20 @@ rlf_result io_backend_find(const char *source, const io_address *address, const 
 /* RLF_OK, or an error that says what the path is and how it is opened: a ROS 2 recording's folder
  * or database, a compressed file. */
 rlf_result io_foreign_check(const char *source, const char *path);
+
+/* A format or a driver that this build was made without. */
+typedef struct io_backend_absent {
+    const char *scheme, *extensions, *option, *summary;
+    const char *cure; /* how to get it */
+} io_backend_absent;
+
+/* NULL past the last. */
+const io_backend_absent *io_backend_absent_at(int32_t index);
+
+/* Opens a shared object: a path, whose file is looked at first, since one that is cut short would
+ * end the program with SIGBUS inside dlopen, which maps it unseen; or a name without a slash, which
+ * the system looks for. NULL with what is wrong in *out_fault. */
+void *io_object_open(const char *path, const char **out_fault);
 
 /* ---- One plug-in: a shared object that exports rlf_backend_entry ---- */
 

@@ -1,15 +1,13 @@
 /* Which back end opens a SOURCE. */
 #define _POSIX_C_SOURCE 200809L
 #include "io/source/backends.h"
-#include "io/source/absent.h"
-#include "io/source/address.h"
+#include "io/file.h"
 
 #include "relief/io.h"
 
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
 
 #define GUESS_TEXT 64
 #define KINDS_TEXT 512 /* all kinds of source, with blanks between */
@@ -119,8 +117,7 @@ static rlf_result fail_scheme(const char *source, const char *scheme)
 
 static rlf_result fail_path(const char *source, const char *path)
 {
-    struct stat status;
-    if (stat(path, &status) != 0) {
+    if (!io_path_exists(path)) {
         char guess[GUESS_TEXT];
         guess_scheme(path, guess);
         return rlf_fail(RLF_ERROR_IO,

@@ -1,27 +1,17 @@
 /* What `ros2 bag` writes besides MCAP files, and packed files. */
 #define _POSIX_C_SOURCE 200809L
+#include "io/file.h"
 #include "io/source/backends.h"
 
 #include <dirent.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
-
-#define PATH_SIZE 4096
 
 static bool ends_with(const char *text, const char *end)
 {
     const size_t length = strlen(text), end_length = strlen(end);
     return length > end_length && strcasecmp(text + length - end_length, end) == 0;
-}
-
-static bool has_file(const char *folder, const char *name)
-{
-    char path[PATH_SIZE];
-    struct stat status;
-    const int length = snprintf(path, sizeof(path), "%s/%s", folder, name);
-    return length > 0 && length < PATH_SIZE && stat(path, &status) == 0;
 }
 
 /* The first file by name that ends so, and how many there are. */
@@ -82,12 +72,12 @@ rlf_result io_foreign_check(const char *source, const char *path)
     } packed[] = {{".zstd", "zstd -d"}, {".zst", "zstd -d"},  {".gz", "gzip -d"},
                   {".xz", "xz -d"},     {".bz2", "bzip2 -d"}, {".zip", "unzip"},
                   {".tar", "tar xf"},   {".tgz", "tar xf"},   {".7z", "7z x"}};
-    struct stat status;
-    if (stat(path, &status) != 0) {
+    if (!io_path_exists(path)) {
         return RLF_OK;
     }
-    if (S_ISDIR(status.st_mode)) {
-        const bool is_recording = has_file(path, "metadata.yaml") && !has_file(path, "depth.txt");
+    if (io_path_is_folder(path)) {
+        const bool is_recording =
+            io_folder_has(path, "metadata.yaml") && !io_folder_has(path, "depth.txt");
         return is_recording ? check_folder(source, path) : RLF_OK;
     }
     if (ends_with(path, ".db3")) {

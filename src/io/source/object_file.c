@@ -1,7 +1,7 @@
 /* Shared objects, looked at before they are mapped. */
 #define _POSIX_C_SOURCE 200809L
 #define _FILE_OFFSET_BITS 64
-#include "io/source/object_file.h"
+#include "io/source/backends.h"
 
 #include <dlfcn.h>
 #include <elf.h>

@@ -1,5 +1,5 @@
 /* Shared objects: Windows itself looks whether they are whole. */
-#include "io/source/object_file.h"
+#include "io/source/backends.h"
 
 #include <dlfcn.h>
 

@@ -1,6 +1,5 @@
 /* From the SOURCE of a command line to a source. */
 #include "io/live/live.h"
-#include "io/live/simulated.h"
 #include "io/source/backends.h"
 #include "io/source/address.h"
 #include "io/clip/clip.h"
@@ -82,20 +81,12 @@ static rlf_result open_with(const rlf_backend *backend, const char *source, io_a
         address.rig = &rig;
     }
     io_replay replay = {0};
-    if (result == RLF_OK) {
-        result = io_replay_take(parts, backend, &replay);
-    }
-    if (result == RLF_OK) {
-        result = give_keys(backend, parts, &address);
-    }
+    result = result == RLF_OK ? io_replay_take(parts, backend, &replay) : result;
+    result = result == RLF_OK ? give_keys(backend, parts, &address) : result;
     rlf_opened opened;
     memset(&opened, 0, sizeof(opened));
-    if (result == RLF_OK) {
-        result = open_device(backend, replay.is_direct, &address, &opened);
-    }
-    if (result == RLF_OK) {
-        result = wrap(&replay, source, &opened);
-    }
+    result = result == RLF_OK ? open_device(backend, replay.is_direct, &address, &opened) : result;
+    result = result == RLF_OK ? wrap(&replay, source, &opened) : result;
     return result == RLF_OK ? io_source_create(&opened, out) : result;
 }
 
@@ -116,8 +107,6 @@ rlf_result rlf_open_source(const char *source, rlf_pool *pool, rlf_source **out)
     io_address parts;
     const rlf_backend *backend = NULL;
     rlf_result result = io_address_parse(source, &parts);
-    if (result == RLF_OK) {
-        result = io_backend_find(source, &parts, &backend);
-    }
+    result = result == RLF_OK ? io_backend_find(source, &parts, &backend) : result;
     return result == RLF_OK ? open_with(backend, source, &parts, out) : result;
 }

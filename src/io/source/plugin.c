@@ -1,7 +1,6 @@
 /* One plug-in: a shared object that exports rlf_backend_entry. */
 #define _POSIX_C_SOURCE 200809L
 #include "io/source/backends.h"
-#include "io/source/object_file.h"
 
 #include <dlfcn.h>
 #include <string.h>

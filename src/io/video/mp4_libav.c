@@ -138,9 +138,7 @@ static rlf_result open_all(io_mp4 *mp4, const char *path, const io_video_format 
         return fail_av(mp4, "the installed libavformat cannot write MP4", code);
     }
     result = open_codec(mp4, format);
-    if (result == RLF_OK) {
-        result = open_stream(mp4);
-    }
+    result = result == RLF_OK ? open_stream(mp4) : result;
     return result == RLF_OK ? open_file(mp4) : result;
 }
 
@@ -208,9 +206,7 @@ static rlf_result finish_file(io_mp4 *mp4)
 
 static rlf_result close_file(io_mp4 *mp4, rlf_result result)
 {
-    if (result == RLF_OK) {
-        result = finish_file(mp4);
-    }
+    result = result == RLF_OK ? finish_file(mp4) : result;
     if (mp4->format != NULL && mp4->format->pb != NULL) {
         int code = avio_closep(&mp4->format->pb);
         if (code < 0 && result == RLF_OK) {

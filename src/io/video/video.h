@@ -50,8 +50,6 @@ typedef struct io_video_format {
     io_rate rate;
 } io_video_format;
 
-/* Y4M to a file, or to standard output for "-". */
-rlf_result io_y4m_open(const char *path, const io_video_format *format, io_video_sink *out);
 /* H.264 through libav. */
 rlf_result io_mp4_open(const char *path, const io_video_format *format, io_video_sink *out);
 /* A v4l2loopback device, "/dev/videoN": other programs see it as a camera. */
