@@ -22,7 +22,8 @@
 #define SAMPLES_MIN 100
 #define FIT_ROUNDS 300
 
-bool freenect_has_reference(const freenect_registration *r)
+/* Whether the device told its reference plane. */
+static bool has_reference(const freenect_registration *r)
 {
     return r->emitter_cm > 1.0f && r->emitter_cm < 100.0f && r->reference_cm > 10.0f &&
            r->reference_cm < 1000.0f && r->pixel_mm > 0.01f && r->pixel_mm < 1.0f;
@@ -30,7 +31,7 @@ bool freenect_has_reference(const freenect_registration *r)
 
 void freenect_depth_table(const freenect_registration *r, uint16_t out[FREENECT_RAW_COUNT])
 {
-    const bool has = r != NULL && freenect_has_reference(r);
+    const bool has = r != NULL && has_reference(r);
     const double emitter = has ? (double)r->emitter_cm : EMITTER_CM;
     const double reference = has ? (double)r->reference_cm : REFERENCE_CM;
     const double pixel = has ? (double)r->pixel_mm : PIXEL_MM;
@@ -252,7 +253,7 @@ static bool fit_color(const freenect_registration *r, rlf_rig *rig, double *out_
 
 void freenect_make_rig(const freenect_registration *r, rlf_rig *out, double *out_error)
 {
-    const bool has = r != NULL && freenect_has_reference(r);
+    const bool has = r != NULL && has_reference(r);
     const double focal = has ? (double)r->reference_cm / (2.0 * (double)r->pixel_mm)
                              : REFERENCE_CM / (2.0 * PIXEL_MM);
     *out = rlf_rig_default();

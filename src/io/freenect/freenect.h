@@ -94,9 +94,6 @@ typedef struct freenect_api {
 
 #define FREENECT_UNITS_PER_METRE 1000.0
 
-/* Whether the device told its reference plane. */
-bool freenect_has_reference(const freenect_registration *registration);
-
 /* Depth in millimetres of each raw count, rounded; 0 = missing. `registration` NULL = the values of
  * a typical device. */
 void freenect_depth_table(const freenect_registration *registration,

@@ -140,7 +140,6 @@ typedef struct io_stream_slot {
     uint64_t sequence; /* of depth */
 } io_stream_slot;
 
-/* Call take after every push until it says no: then two depth pictures are the most that wait. */
 typedef struct io_stream_pair {
     const rlf_rig *rig; /* borrowed: sizes */
     double units_per_metre;
@@ -162,8 +161,6 @@ rlf_result io_stream_pair_init(io_stream_pair *pair, const rlf_rig *rig, double 
                                double frames_per_second);
 /* A pair that was never made is allowed, when it is zero. */
 void io_stream_pair_finish(io_stream_pair *pair);
-/* Forgets all pictures that wait: the next frame does not follow the last one. */
-void io_stream_pair_clear(io_stream_pair *pair);
 
 /* Where the next picture goes: depth as rig->depth.width x height uint16_t, colour as RGBA. */
 uint16_t *io_stream_pair_depth(io_stream_pair *pair);
@@ -173,10 +170,6 @@ rlf_image_rgba8 io_stream_pair_color(io_stream_pair *pair);
  * ones are told by the time. A second picture of the same time is dropped. */
 void io_stream_pair_push_depth(io_stream_pair *pair, int64_t time_ns, int64_t index);
 void io_stream_pair_push_color(io_stream_pair *pair, int64_t time_ns);
-
-/* Fills *out when a frame is ready: its colour is within half a frame's time, or can no longer
- * come. `is_last`: nothing more is waited for. */
-bool io_stream_pair_take(io_stream_pair *pair, bool is_last, rlf_frame *out);
 
 /* A rlf_source's `next`: pumps until a frame is ready, for IO_LIVE_WAIT_MS at most. `pump` waits at
  * most so long for a picture and pushes it; an error of it is returned. */

@@ -70,7 +70,7 @@ static rlf_result parse_stall(const rlf_address *address, simulated_faults *out)
 }
 
 /* Keys unplug_after, replug_after, stall, hang, time_back, jitter, drop, doubled. */
-static rlf_result simulated_faults_parse(const rlf_address *address, simulated_faults *out)
+static rlf_result parse_faults(const rlf_address *address, simulated_faults *out)
 {
     *out = (simulated_faults){.unplug_s = -1, .replug_s = -1, .hang_s = -1, .time_back_s = -1};
     double jitter_ms = 0.0;
@@ -86,13 +86,13 @@ static rlf_result simulated_faults_parse(const rlf_address *address, simulated_f
     return result;
 }
 
-static bool simulated_is_plugged(const simulated_faults *f, double time_s)
+static bool is_plugged(const simulated_faults *f, double time_s)
 {
     const bool is_pulled = f->unplug_s >= 0.0 && time_s >= f->unplug_s;
     return !is_pulled || (f->replug_s >= 0.0 && time_s >= f->unplug_s + f->replug_s);
 }
 
-static bool simulated_is_stalled(const simulated_faults *f, double time_s)
+static bool is_stalled(const simulated_faults *f, double time_s)
 {
     return f->stall_s > 0.0 && time_s >= f->stall_from_s && time_s < f->stall_from_s + f->stall_s;
 }
@@ -123,7 +123,7 @@ static device *find(const char *name)
 
 /* When the camera of that name was opened first (rlf_clock_ns), from when its faults are counted;
  * now, if it never was. Both calls are thread-safe. */
-static int64_t simulated_device_start(const char *name)
+static int64_t device_start(const char *name)
 {
     pthread_mutex_lock(&mutex);
     const device *d = find(name);
@@ -133,7 +133,7 @@ static int64_t simulated_device_start(const char *name)
 }
 
 /* It was opened; the first time counts. */
-static rlf_result simulated_device_note(const char *name)
+static rlf_result note_device(const char *name)
 {
     if (strlen(name) >= NAME_SIZE) {
         return rlf_fail(RLF_ERROR_INVALID, "simulated:%.20s...: the name is longer than %d bytes",
@@ -245,10 +245,10 @@ static rlf_result simulated_next(void *self, rlf_frame *out)
     while (f->hang_s >= 0.0 && now_s >= f->hang_s) {
         sleep_s(1.0);
     }
-    if (!simulated_is_plugged(f, now_s)) {
+    if (!is_plugged(f, now_s)) {
         return rlf_fail(RLF_ERROR_DEVICE, "the simulated camera was pulled out");
     }
-    if (simulated_is_stalled(f, now_s)) {
+    if (is_stalled(f, now_s)) {
         sleep_s(WAIT_MAX_S);
         return RLF_NO_FRAME;
     }
@@ -320,18 +320,18 @@ static rlf_result describe(const rlf_address *address, simulated *s, rlf_source_
 
 static double start_of(const rlf_address *address)
 {
-    return (double)simulated_device_start(address->place) / NS_PER_S;
+    return (double)device_start(address->place) / NS_PER_S;
 }
 
 static rlf_result simulated_open(const rlf_address *address, rlf_opened *out)
 {
     simulated_faults faults;
-    rlf_result result = simulated_faults_parse(address, &faults);
+    rlf_result result = parse_faults(address, &faults);
     if (result != RLF_OK) {
         return result;
     }
     const double start_s = start_of(address);
-    if (!simulated_is_plugged(&faults, clock_s() - start_s)) {
+    if (!is_plugged(&faults, clock_s() - start_s)) {
         return rlf_fail(RLF_ERROR_DEVICE, "%s: is not plugged in", address->source);
     }
     simulated *s = rlf_alloc(sizeof(*s));
@@ -346,7 +346,7 @@ static rlf_result simulated_open(const rlf_address *address, rlf_opened *out)
     if (result > RLF_OK) {
         result = rlf_fail(RLF_ERROR_IO, "%s: what it plays has no frame", address->source);
     }
-    result = result == RLF_OK ? simulated_device_note(address->place) : result;
+    result = result == RLF_OK ? note_device(address->place) : result;
     if (result != RLF_OK) {
         simulated_destroy(s);
         return result;

@@ -27,7 +27,7 @@ static const char *put(char **end, const char *text)
 }
 
 /* Do not move *out afterwards. */
-static rlf_result live_address_copy(const rlf_address *address, live_address *out)
+static rlf_result copy_address(const rlf_address *address, live_address *out)
 {
     memset(out, 0, sizeof(*out));
     out->text = rlf_alloc(text_size(address));
@@ -49,7 +49,7 @@ static rlf_result live_address_copy(const rlf_address *address, live_address *ou
     return RLF_OK;
 }
 
-static void live_address_free(live_address *address)
+static void free_address(live_address *address)
 {
     rlf_free(address->text);
     address->text = NULL;
@@ -83,7 +83,7 @@ static void free_live(io_live *l)
     for (int32_t i = 0; i < LIVE_SLOTS; i++) {
         live_slot_destroy(&l->slots[i]);
     }
-    live_address_free(&l->address);
+    free_address(&l->address);
     pthread_cond_destroy(&l->news);
     pthread_mutex_destroy(&l->mutex);
     pthread_mutex_destroy(&l->observer_mutex);
@@ -98,7 +98,7 @@ rlf_result live_create(const rlf_backend *backend, const rlf_address *address,
         return RLF_ERROR_MEMORY;
     }
     rlf_result result = create_lock(l);
-    result = result == RLF_OK ? live_address_copy(address, &l->address) : result;
+    result = result == RLF_OK ? copy_address(address, &l->address) : result;
     if (result != RLF_OK) {
         rlf_free(l);
         return result;

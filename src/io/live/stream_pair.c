@@ -44,14 +44,6 @@ void io_stream_pair_finish(io_stream_pair *pair)
     }
 }
 
-void io_stream_pair_clear(io_stream_pair *pair)
-{
-    pair->waiting_count = 0;
-    pair->color_count = 0;
-    pair->has_last = false;
-    pair->is_broken = true;
-}
-
 /* A slot that neither the last frame nor a list points to. */
 static int32_t free_slot(int32_t shown, const int32_t *list, int32_t count)
 {
@@ -189,7 +181,9 @@ static void fill_frame(io_stream_pair *pair, const io_stream_slot *depth, int32_
     }
 }
 
-bool io_stream_pair_take(io_stream_pair *pair, bool is_last, rlf_frame *out)
+/* Fills *out when a frame is ready: its colour is within half a frame's time, or can no longer
+ * come. `is_last`: nothing more is waited for. */
+static bool take_frame(io_stream_pair *pair, bool is_last, rlf_frame *out)
 {
     if (pair->waiting_count == 0) {
         return false;
@@ -216,12 +210,12 @@ rlf_result io_stream_pair_next(io_stream_pair *pair,
 {
     const int64_t end_ns = rlf_clock_ns() + IO_LIVE_WAIT_MS * INT64_C(1000000);
     for (;;) {
-        if (io_stream_pair_take(pair, false, out)) {
+        if (take_frame(pair, false, out)) {
             return RLF_OK;
         }
         const int64_t left_ms = (end_ns - rlf_clock_ns()) / 1000000;
         if (left_ms <= 0) {
-            return io_stream_pair_take(pair, true, out) ? RLF_OK : RLF_NO_FRAME;
+            return take_frame(pair, true, out) ? RLF_OK : RLF_NO_FRAME;
         }
         rlf_result result = pump(self, (int32_t)left_ms);
         if (result < 0) {

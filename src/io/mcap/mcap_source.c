@@ -12,7 +12,7 @@
 /* ---- what a recording of Relief's own says beside its pictures --------------------------- */
 
 /* The channel of that type and topic that has messages; -1 = none. */
-static int32_t io_mcap_find_topic(const io_mcap_reader *reader, io_ros_type type, const char *topic)
+static int32_t find_topic(const io_mcap_reader *reader, io_ros_type type, const char *topic)
 {
     for (int32_t i = 0; i < io_mcap_channel_count(reader); i++) {
         const io_mcap_channel *c = io_mcap_channel_at(reader, i);
@@ -24,8 +24,8 @@ static int32_t io_mcap_find_topic(const io_mcap_reader *reader, io_ros_type type
 }
 
 /* What ROS has no message for, from the metadata; nonsense changes nothing. */
-static double io_mcap_number(const io_mcap_reader *reader, const char *key, double low, double high,
-                             double otherwise)
+static double number_of(const io_mcap_reader *reader, const char *key, double low, double high,
+                        double otherwise)
 {
     const char *text = io_mcap_metadata(reader, key);
     const double value = text != NULL ? strtod(text, NULL) : otherwise;
@@ -42,18 +42,18 @@ static rlf_vec3 read_gravity(const io_mcap_reader *reader)
 }
 
 /* What its source said beside the calibration; without the notes. */
-static void io_mcap_read_origin(const io_mcap_reader *reader, io_clip_origin *out)
+static void read_origin(const io_mcap_reader *reader, io_clip_origin *out)
 {
     out->gravity = read_gravity(reader);
-    out->is_simulated = io_mcap_number(reader, IO_KEY_SIMULATED, 0, 1, 0) > 0.0;
-    out->frames_per_second = io_mcap_number(reader, IO_KEY_RATE, 0, IO_RATE_MAX, 0);
+    out->is_simulated = number_of(reader, IO_KEY_SIMULATED, 0, 1, 0) > 0.0;
+    out->frames_per_second = number_of(reader, IO_KEY_RATE, 0, IO_RATE_MAX, 0);
     out->has_notes = io_mcap_metadata(reader, IO_KEY_NOTES) != NULL;
 }
 
 /* The notes of its frames, in a new array that *origin borrows; NULL when there are none. */
-static io_frame_note *io_mcap_read_notes(io_mcap_reader *reader, io_clip_origin *origin)
+static io_frame_note *read_notes(io_mcap_reader *reader, io_clip_origin *origin)
 {
-    const int32_t index = io_mcap_find_topic(reader, IO_ROS_STRING, IO_TOPIC_FRAME);
+    const int32_t index = find_topic(reader, IO_ROS_STRING, IO_TOPIC_FRAME);
     const io_mcap_channel *c = index >= 0 ? io_mcap_channel_at(reader, index) : NULL;
     io_frame_note *notes =
         c != NULL && origin->has_notes ? rlf_alloc_array((size_t)c->count, sizeof(notes[0])) : NULL;
@@ -108,7 +108,7 @@ static void mcap_destroy(void *self)
  * the file has no poses. */
 static rlf_pose *poses_of(mcap *m, const io_shots *shots)
 {
-    const int32_t index = io_mcap_find_topic(m->reader, IO_ROS_POSE_STAMPED, IO_TOPIC_POSE);
+    const int32_t index = find_topic(m->reader, IO_ROS_POSE_STAMPED, IO_TOPIC_POSE);
     rlf_pose *poses = index >= 0 ? rlf_alloc_array((size_t)shots->count, sizeof(poses[0])) : NULL;
     if (poses == NULL) {
         return NULL;
@@ -136,14 +136,13 @@ static rlf_pose *poses_of(mcap *m, const io_shots *shots)
 static void read_metadata(mcap *m)
 {
     rlf_rig *r = &m->ros.rig;
-    m->ros.units_per_metre =
-        io_mcap_number(m->reader, IO_KEY_UNITS, 1, 1e6, m->ros.units_per_metre);
-    r->depth_max_m = io_mcap_number(m->reader, IO_KEY_DEPTH_MAX, 1e-3, 1000, r->depth_max_m);
-    r->depth_min_m = io_mcap_number(m->reader, IO_KEY_DEPTH_MIN, 0, r->depth_max_m, r->depth_min_m);
-    r->noise.c0 = io_mcap_number(m->reader, IO_KEY_NOISE_0, -1, 1, r->noise.c0);
-    r->noise.c1 = io_mcap_number(m->reader, IO_KEY_NOISE_1, -1, 1, r->noise.c1);
-    r->noise.c2 = io_mcap_number(m->reader, IO_KEY_NOISE_2, -1, 1, r->noise.c2);
-    m->ros.flags |= (uint32_t)io_mcap_number(m->reader, IO_KEY_FLAGS, 0, 3, 0);
+    m->ros.units_per_metre = number_of(m->reader, IO_KEY_UNITS, 1, 1e6, m->ros.units_per_metre);
+    r->depth_max_m = number_of(m->reader, IO_KEY_DEPTH_MAX, 1e-3, 1000, r->depth_max_m);
+    r->depth_min_m = number_of(m->reader, IO_KEY_DEPTH_MIN, 0, r->depth_max_m, r->depth_min_m);
+    r->noise.c0 = number_of(m->reader, IO_KEY_NOISE_0, -1, 1, r->noise.c0);
+    r->noise.c1 = number_of(m->reader, IO_KEY_NOISE_1, -1, 1, r->noise.c1);
+    r->noise.c2 = number_of(m->reader, IO_KEY_NOISE_2, -1, 1, r->noise.c2);
+    m->ros.flags |= (uint32_t)number_of(m->reader, IO_KEY_FLAGS, 0, 3, 0);
 }
 
 /* ---- opening -------------------------------------------------------------------------------- */
@@ -165,10 +164,10 @@ static rlf_result open_clip(const rlf_address *address, mcap *m, bool is_own, rl
     describe(m, device, sizeof(device));
     io_clip_def def = {.device = device, .destroy = mcap_destroy, .self = m};
     if (is_own) {
-        io_mcap_read_origin(m->reader, &def.origin);
+        read_origin(m->reader, &def.origin);
     }
     rlf_pose *poses = poses_of(m, &m->ros.depth.shots);
-    io_frame_note *notes = io_mcap_read_notes(m->reader, &def.origin);
+    io_frame_note *notes = read_notes(m->reader, &def.origin);
     def.poses = poses;
     rlf_result result = io_ros_open_clip(&m->ros, address, &def, out);
     rlf_free(poses);

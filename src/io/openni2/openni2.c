@@ -33,7 +33,7 @@ static io_library library = {
     .table = &functions};
 
 /* Why the library cannot be used and what to do, or NULL when it can. */
-static const char *openni2_unavailable(void)
+static const char *unavailable(void)
 {
     const char *reason;
     (void)io_library_get(&library, &reason);
@@ -42,7 +42,7 @@ static const char *openni2_unavailable(void)
 
 rlf_result openni2_begin(const char *who, const openni2_api **out)
 {
-    const char *reason = openni2_unavailable();
+    const char *reason = unavailable();
     if (reason != NULL) {
         return rlf_fail(RLF_ERROR_UNSUPPORTED, "%s: %s", who, reason);
     }
@@ -294,7 +294,7 @@ const rlf_backend io_backend_openni2 = {
     .keys = "mode color aligned mirror",
     .summary = "a camera of PrimeSense, Asus Xtion or older Orbbec: URI or serial number",
     .is_live = true,
-    .unavailable = openni2_unavailable,
+    .unavailable = unavailable,
     .list = list,
     .open = open_camera,
 };

@@ -36,9 +36,6 @@ rlf_result io_pixels_to_rgba(const io_pixels *in, const rlf_image_rgba8 *out);
  * is metres; missing ones (NaN, infinite, <= 0) and what is beyond the range become 0. */
 rlf_result io_pixels_to_depth(const io_pixels *in, uint16_t *out, double *out_units_per_metre);
 
-/* YUV of full or limited range to RGB (BT.601), three bytes. */
-void io_yuv_to_rgb(int32_t y, int32_t u, int32_t v, bool is_full_range, uint8_t *out);
-
 /* ---- Whether a raw picture holds what its header says ---- */
 
 /* The picture has a size within the limits and `row_count` whole rows of width x pixel_size bytes:

@@ -32,7 +32,7 @@ static void add_around(const io_pixels *in, const int32_t at[2], const int32_t r
 
 /* Row y as RGBA: each missing colour is the mean of that colour's nearest pixels (bilinear). The
  * first red pixel is at (red_x, red_y), each 0 or 1. */
-static void io_bayer_row(const io_pixels *in, int32_t red_x, int32_t red_y, int32_t y, uint8_t *out)
+static void bayer_row(const io_pixels *in, int32_t red_x, int32_t red_y, int32_t y, uint8_t *out)
 {
     const int32_t red[2] = {red_x, red_y};
     for (int32_t x = 0; x < (int32_t)in->width; x++) {
@@ -114,7 +114,8 @@ static uint8_t clamp_byte(int32_t x)
     return (uint8_t)(x < 0 ? 0 : (x > 255 ? 255 : x));
 }
 
-void io_yuv_to_rgb(int32_t y, int32_t u, int32_t v, bool is_full_range, uint8_t *out)
+/* YUV of full or limited range to RGB (BT.601), three bytes. */
+static void yuv_to_rgb(int32_t y, int32_t u, int32_t v, bool is_full_range, uint8_t *out)
 {
     /* Fractions of 2^16 of ITU-R BT.601; limited range stretches 16..235 to 0..255. */
     const int32_t luma = (is_full_range ? y * 65536 : (y - 16) * 76309) + 32768;
@@ -134,8 +135,7 @@ static void yuv_422_row(const encoding *e, const uint8_t *row, int32_t width, ui
         /* The last pixel of an odd width has no v of its own: its grey is what is known. */
         const bool is_whole = (x | 1) < width;
         const int32_t y = row[2 * x + e->a];
-        io_yuv_to_rgb(y, is_whole ? pair[e->b] : 128, is_whole ? pair[e->c] : 128, false,
-                      out + 4 * x);
+        yuv_to_rgb(y, is_whole ? pair[e->b] : 128, is_whole ? pair[e->c] : 128, false, out + 4 * x);
     }
 }
 
@@ -146,8 +146,8 @@ static void yuv_420_row(const encoding *e, const io_pixels *in, int32_t y, uint8
     for (int32_t x = 0; x < (int32_t)in->width; x++) {
         const uint8_t *pair = chroma + (x & ~1);
         const bool is_whole = (x | 1) < in->width;
-        io_yuv_to_rgb(luma[x], is_whole ? pair[e->a] : 128, is_whole ? pair[e->b] : 128, false,
-                      out + 4 * x);
+        yuv_to_rgb(luma[x], is_whole ? pair[e->a] : 128, is_whole ? pair[e->b] : 128, false,
+                   out + 4 * x);
     }
 }
 
@@ -159,7 +159,7 @@ static void convert_row(const encoding *e, const io_pixels *in, int32_t y, uint8
     case LAYOUT_PACKED: packed_row(e, row, width, out); break;
     case LAYOUT_YUV_422: yuv_422_row(e, row, width, out); break;
     case LAYOUT_YUV_420: yuv_420_row(e, in, y, out); break;
-    case LAYOUT_BAYER: io_bayer_row(in, e->a, e->b, y, out); break;
+    case LAYOUT_BAYER: bayer_row(in, e->a, e->b, y, out); break;
     }
 }
 

@@ -30,7 +30,7 @@ bag_connection *bag_find_connection(bag *self, uint32_t id)
     return NULL;
 }
 
-rlf_result bag_add_connection(bag *self, const bag_record *record, cursor data)
+static rlf_result add_connection(bag *self, const bag_record *record, cursor data)
 {
     if (bag_find_connection(self, record->connection) != NULL) {
         return RLF_OK;
@@ -123,7 +123,7 @@ static rlf_result add_record(bag *self, int64_t position, const bag_record *reco
     if (result == RLF_OK &&
         bag_read_at(self, position + record->data, self->packed.data, record->data_size)) {
         result =
-            bag_add_connection(self, record, (cursor){self->packed.data, record->data_size, false});
+            add_connection(self, record, (cursor){self->packed.data, record->data_size, false});
     }
     return result;
 }
@@ -144,7 +144,7 @@ static rlf_result find_connections(bag *self)
             bag_record record;
             cursor data;
             if (bag_parse_record(&c, &record, &data) && record.op == BAG_OP_CONNECTION) {
-                result = bag_add_connection(self, &record, data);
+                result = add_connection(self, &record, data);
                 if (result != RLF_OK) {
                     return result;
                 }
@@ -237,11 +237,6 @@ int32_t bag_connection_count(const bag *self)
 bag_connection *bag_connection_at(bag *self, int32_t index)
 {
     return &self->connections[index];
-}
-
-int32_t bag_entry_count(const bag *self)
-{
-    return self->entry_count;
 }
 
 const bag_entry *bag_entry_at(const bag *self, int32_t index)

@@ -36,7 +36,6 @@ bag_connection *bag_connection_at(bag *self, int32_t index);
 /* Lists the messages of the connections with a limit: from the index, or by looking through the
  * chunks that have none. */
 rlf_result bag_index(bag *self);
-int32_t bag_entry_count(const bag *self);
 const bag_entry *bag_entry_at(const bag *self, int32_t index);
 
 /* Whether bytes come at little cost, so that times may be read from the messages themselves. */
@@ -94,9 +93,6 @@ typedef struct bag_record {
     uint32_t data_size;
 } bag_record;
 
-/* Reads the fields of a record's header. */
-void bag_parse_header(cursor fields, bag_record *out);
-
 /* A record in memory; false when it is cut short. The cursor moves behind it. */
 bool bag_parse_record(cursor *c, bag_record *out, cursor *out_data);
 
@@ -106,7 +102,6 @@ bool bag_read_at(const bag *self, int64_t position, void *out, size_t size);
 /* A record in the file, without its data; false when it is cut short. */
 bool bag_read_record(bag *self, int64_t position, bag_record *out);
 
-rlf_result bag_add_connection(bag *self, const bag_record *record, cursor data);
 bag_connection *bag_find_connection(bag *self, uint32_t id);
 
 /* Makes room for one more element; `limit` bounds the memory that a hostile file can ask for. */
@@ -118,8 +113,5 @@ rlf_result bag_unpack(bag *self, int32_t chunk, io_bytes *out);
 
 /* Whether this build can unpack such chunks; else RLF_ERROR_UNSUPPORTED with what to do. */
 rlf_result bag_check_packing(const char *path, bag_packing packing);
-
-/* Unpacks `in` into exactly out_size bytes. */
-rlf_result bag_decompress(const io_bytes *in, bag_packing packing, uint8_t *out, size_t out_size);
 
 #endif

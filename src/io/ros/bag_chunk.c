@@ -76,7 +76,8 @@ rlf_result bag_check_packing(const char *path, bag_packing packing)
     return RLF_OK;
 }
 
-rlf_result bag_decompress(const io_bytes *in, bag_packing packing, uint8_t *out, size_t out_size)
+/* Unpacks `in` into exactly out_size bytes. */
+static rlf_result decompress(const io_bytes *in, bag_packing packing, uint8_t *out, size_t out_size)
 {
     if (in->size == 0 || out_size == 0) { /* there are no bytes to point to */
         return in->size == out_size ? RLF_OK : fail_damaged(in);
@@ -111,7 +112,7 @@ static rlf_result unpack_into(bag *self, int32_t index, bag_cache *cache)
         return rlf_fail(RLF_ERROR_IO, "%s: cannot be read: check the disk", self->file.path);
     }
     const io_bytes in = {self->file.path, self->packed.data, chunk->packed_size};
-    result = bag_decompress(&in, chunk->packing, cache->bytes.data, chunk->size);
+    result = decompress(&in, chunk->packing, cache->bytes.data, chunk->size);
     if (result == RLF_OK) {
         cache->chunk = index;
         cache->size = chunk->size;

@@ -24,7 +24,8 @@ static void copy_text(cursor value, char *out, size_t capacity)
     out[size] = '\0';
 }
 
-void bag_parse_header(cursor fields, bag_record *out)
+/* Reads the fields of a record's header. */
+static void parse_header(cursor fields, bag_record *out)
 {
     memset(out, 0, sizeof(*out));
     out->op = -1;
@@ -53,7 +54,7 @@ bool bag_parse_record(cursor *c, bag_record *out, cursor *out_data)
 {
     const uint8_t *begin = c->data;
     const cursor fields = cursor_block(c);
-    bag_parse_header(fields, out);
+    parse_header(fields, out);
     *out_data = cursor_block(c);
     out->data = c->is_short ? 0 : out_data->data - begin;
     out->data_size = (uint32_t)out_data->left;
@@ -77,7 +78,7 @@ bool bag_read_record(bag *self, int64_t position, bag_record *out)
         !bag_read_at(self, position + 4, self->message.data, (size_t)header_size + 4)) {
         return false;
     }
-    bag_parse_header((cursor){self->message.data, header_size, false}, out);
+    parse_header((cursor){self->message.data, header_size, false}, out);
     io_little_read(self->message.data + header_size, &out->data_size, 4);
     out->data = 8 + (int64_t)header_size;
     return out->data_size <= self->file.size - position - out->data;

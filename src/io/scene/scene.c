@@ -33,7 +33,7 @@ static rlf_result read_action(const io_json_object *on, const char *key, rlf_sce
 }
 
 /* on.c: the object "on". */
-static rlf_result io_on_read(const io_json_object *top, rlf_scene *scene)
+static rlf_result read_on(const io_json_object *top, rlf_scene *scene)
 {
     static const io_json_field field = {"on", "an object of events and actions", 0, 0, false};
     io_json_object on;
@@ -118,7 +118,7 @@ static rlf_result read_scene(const io_json_object *top, const char *folder, rlf_
     result = result == RLF_OK ? read_gravity(top, scene) : result;
     result = result == RLF_OK ? read_border(top, &scene->border) : result;
     result = result == RLF_OK ? read_all_bodies(top, folder, scene) : result;
-    result = result == RLF_OK ? io_on_read(top, scene) : result;
+    result = result == RLF_OK ? read_on(top, scene) : result;
     return result == RLF_OK ? io_known_read(top, folder, scene) : result;
 }
 

@@ -42,7 +42,7 @@ static rlf_result open_file(const char *path, io_out_file *file)
 }
 
 /* Y4M to a file, or to standard output for "-". */
-static rlf_result io_y4m_open(const char *path, const io_video_format *format, io_video_sink *out)
+static rlf_result open_y4m(const char *path, const io_video_format *format, io_video_sink *out)
 {
     io_out_file *file = rlf_alloc(sizeof(*file));
     if (file == NULL) {
@@ -92,7 +92,7 @@ static rlf_result open_by_name(rlf_video *video, const char *path, double frames
 {
     io_video_format format = {video->yuv.width, video->yuv.height, io_rate_from(frames_per_second)};
     if (strcmp(path, "-") == 0 || has_ending(path, ".y4m")) {
-        return io_y4m_open(path, &format, &video->sink);
+        return open_y4m(path, &format, &video->sink);
     }
     if (has_ending(path, ".mp4")) {
         return io_mp4_open(path, &format, &video->sink);
