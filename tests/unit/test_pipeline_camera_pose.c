@@ -1,7 +1,6 @@
 /* The tracker and the map together, where the camera sees nothing, jumps, or looks at what is not
  * the room. The room: walls and three boxes with patches of grey. */
 
-#include "camera/pixels.h"
 #include "pipeline/moving/moving.h"
 #include "test.h"
 
@@ -115,19 +114,6 @@ static void look(const rlf_pose *T)
     }
 }
 
-/* But for what is nearer than the room, as foreground is, and what has come lately. */
-static void mark_static(uint8_t *is_static)
-{
-    const rlf_prediction *p = f.camera.has_prediction ? &f.camera.prediction : NULL;
-    for (int32_t i = 0; i < PIXELS; i++) {
-        const rlf_vec3 q = rlf_surface_point(&f.surface, i);
-        const int32_t pixel = p != NULL && q.z > 0.0 ? camera_pixel_of(&p->camera, q) : -1;
-        const double known = pixel >= 0 ? (double)p->depth[pixel] : 0.0;
-        is_static[i] = known == 0.0 || q.z > known - 0.05;
-    }
-    settled_mark(&f.camera.settled, p, &f.surface, &f.camera.last.T_world_camera, is_static);
-}
-
 /* The frame at hand into tracker and map, as the pipeline does it. */
 static rlf_track_health feed(void)
 {
@@ -136,7 +122,7 @@ static rlf_track_health feed(void)
     assert_int_equal(camera_pose_find(&f.camera, f.map, &f.surface, f.grey, f.time_ns), RLF_OK);
     if (f.camera.may_fuse) {
         static uint8_t is_static[PIXELS];
-        mark_static(is_static);
+        camera_pose_mark_static(&f.camera, &f.surface, is_static);
         const rlf_map_view view = {.depth = f.depth,
                                    .normal_x = f.normal[0],
                                    .normal_y = f.normal[1],

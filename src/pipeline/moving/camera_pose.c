@@ -183,14 +183,37 @@ static void guard_map(camera_pose *c, rlf_map *map)
     c->may_fuse = (is_good || is_still) && c->proven >= PROOF_FRAMES;
 }
 
-bool camera_pose_is_of_room(const camera_pose *c, rlf_vec3 point)
+/* How much farther a point is than what the map shows there; false = it shows nothing. */
+static bool find_behind(const camera_pose *c, rlf_vec3 point, double *out_behind)
 {
     const rlf_prediction *p = &c->prediction;
     const int32_t pixel =
         c->has_prediction && point.z > 0.0 ? camera_pixel_of(&p->camera, point) : -1;
     const double room = pixel >= 0 ? (double)p->depth[pixel] : 0.0;
-    const double apart = rlf_max(APART_M, APART_SIGMAS * rlf_depth_noise_sigma(&c->noise, point.z));
-    return room > 0.0 && fabs(point.z - room) <= apart;
+    *out_behind = point.z - room;
+    return room > 0.0;
+}
+
+static double apart(const camera_pose *c, double depth)
+{
+    return rlf_max(APART_M, APART_SIGMAS * rlf_depth_noise_sigma(&c->noise, depth));
+}
+
+bool camera_pose_is_of_room(const camera_pose *c, rlf_vec3 point)
+{
+    double behind;
+    return find_behind(c, point, &behind) && fabs(behind) <= apart(c, point.z);
+}
+
+void camera_pose_mark_static(camera_pose *c, const rlf_surface *s, uint8_t *is_static)
+{
+    for (int32_t i = 0; i < s->width * s->height; i++) {
+        const rlf_vec3 q = rlf_surface_point(s, i);
+        double behind;
+        is_static[i] = !(find_behind(c, q, &behind) && behind < -apart(c, q.z));
+    }
+    const rlf_prediction *room = c->has_prediction ? &c->prediction : NULL;
+    settled_mark(&c->settled, room, s, &c->last.T_world_camera, is_static);
 }
 
 /* What the map shows from where the camera is; a new reference when it is elsewhere. */

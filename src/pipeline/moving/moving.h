@@ -75,6 +75,9 @@ rlf_result camera_pose_find(camera_pose *c, rlf_map *map, const rlf_surface *sur
                             const uint8_t *grey, int64_t time_ns);
 /* c->prediction of a pose that was found otherwise. */
 rlf_result camera_pose_predict(camera_pose *c, rlf_map *map, const rlf_pose *T_world_camera);
+/* Pixels of the frame that was found last in front of the room that is known, or that have come
+ * lately: 0, else 1. For who has no foreground. */
+void camera_pose_mark_static(camera_pose *c, const rlf_surface *surface, uint8_t *is_static);
 /* Whether a point of the last frame, in camera coordinates, lies on what the map shows there. */
 bool camera_pose_is_of_room(const camera_pose *c, rlf_vec3 point);
 void camera_pose_close(camera_pose *c);
