@@ -22,9 +22,9 @@ function add(path, seen = new Set()) {
     add(from, seen);
     const isExport = whole.startsWith('export');
     const taken = `const {${names.replaceAll(' as ', ': ')}} = modules[${JSON.stringify(from)}];`;
-    text = text.replace(whole, isExport ? `${taken} export {${names}};` : taken);
+    text = text.replace(whole, () => (isExport ? `${taken} export {${names}};` : taken));
   }
-  const exported = [...text.matchAll(/^export (?:async )?(?:function|class|const) (\w+)/gm)].map((match) => match[1]);
+  const exported = [...text.matchAll(/^export (?:async )?(?:function|class|const) ([\w$]+)/gm)].map((match) => match[1]);
   const listed = [...text.matchAll(/export \{([^}]*)\};/g)].flatMap((match) => match[1].split(',').map((name) => name.trim()));
   const body = text.replace(/export \{[^}]*\};/g, '').replace(/^export /gm, '').replaceAll('import.meta.url', 'location.href');
   order.push(`modules[${JSON.stringify(path)}] = (() => {\n${body}\nreturn { ${[...exported, ...listed].join(', ')} };\n})();`);

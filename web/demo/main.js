@@ -45,7 +45,7 @@ function tellPlace({ player: { source } }) {
   if (document.activeElement !== $('seek')) $('seek').value = source.count > 1 ? source.index / (source.count - 1) : 0;
 }
 
-/** Opens a room by `open()`. On an error the page says why and goes on with what can be had. */
+/** Opens a room by `open()`. On an error the page says why, and what was open goes on. */
 async function play(page, open) {
   try {
     page.player.play(await open());
@@ -54,7 +54,6 @@ async function play(page, open) {
     $('about').textContent = page.room.clip ? `${page.room.clip.name}, with bodies in it` : SCENES[page.room.name].about;
   } catch (error) {
     fail(error);
-    if (!page.room.clip && page.room.relief.width === 0) page.player.play(page.room.openScene('demo'));
   }
 }
 

@@ -21,17 +21,27 @@ export class Room {
     return `${address}${address.includes('?') ? '&' : '?'}${COLOR}`;
   }
 
-  /** A scene in the simulated room, or in the recording that is open. */
-  openScene(name) {
+  #make(name) {
     const scene = sceneOf(this.scenes[name], this.models);
-    const source = this.clip ? new ClipSource(this.relief, this.clip, scene)
+    return this.clip ? new ClipSource(this.relief, this.clip, scene)
       : new RoomSource(this.relief, this.#address(name), scene);
-    this.name = name;
-    this.#settle();
-    return source;
   }
 
-  /** A recording; when it cannot be opened, what was open stays. */
+  /** A scene in the simulated room, or in the recording that is open. What cannot be opened leaves what was. */
+  openScene(name) {
+    try {
+      this.source = this.#make(name);
+      this.name = name;
+    } catch (error) {
+      this.source?.open();
+      throw error;
+    } finally {
+      this.#settle();
+    }
+    return this.source;
+  }
+
+  /** A recording, once its first frame is read; when that fails what was open stays. */
   async openFile(file, name, onProgress) {
     const clip = await openRecording(file, onProgress);
     const before = this.clip;
