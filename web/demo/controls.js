@@ -21,7 +21,7 @@ function bindSlider(id, onInput = () => {}) {
 
 /** hooks: {scene(name), view(name), gravity(value)}. Returns what a throw is made of, and setters. */
 export function bindPanel(scenes, hooks) {
-  fill($('scene'), Object.keys(scenes).map((name) => [name, name.replaceAll('_', ' ')]));
+  fill($('scene'), Object.keys(scenes).map((name) => [name, name[0].toUpperCase() + name.slice(1).replaceAll('_', ' ')]));
   fill($('view'), Object.entries(VIEW_WORDS));
   $('scene').addEventListener('change', () => hooks.scene($('scene').value));
   $('view').addEventListener('change', () => hooks.view($('view').value));
