@@ -337,8 +337,10 @@ const checks = {
         await page.selectOption('#scene', scene);
         await page.waitForFunction((name) => globalThis.reliefPage.room.name === name, scene);
         await goesOn(page);
+        assert.equal(await page.evaluate(() => globalThis.reliefPage.room.clip !== null), scene.startsWith('table'));
       }
-      assert.equal(await page.textContent('#status'), '');
+      assert.equal(await page.locator('#status.bad:not(:empty)').count(), 0, 'no error was told');
+      assert.match(await page.textContent('#about'), /table.zip, with bodies/);
     });
   },
 

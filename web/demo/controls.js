@@ -19,9 +19,13 @@ function bindSlider(id, onInput = () => {}) {
   return { get value() { return Number(input.value); }, set(value) { input.value = value; show(); } };
 }
 
+/** A scene in a clip beside the page: the page of one file has none. */
+export const clipOf = ({ source = '' }) => (source.startsWith('clips/') ? `${source}.zip` : null);
+
 /** hooks: {scene(name), view(name), gravity(value)}. Returns what a throw is made of, and setters. */
 export function bindPanel(scenes, hooks) {
-  fill($('scene'), Object.keys(scenes).map((name) => [name, name[0].toUpperCase() + name.slice(1).replaceAll('_', ' ')]));
+  const names = Object.keys(scenes).filter((name) => !$('wasm') || clipOf(scenes[name]) === null);
+  fill($('scene'), names.map((name) => [name, name[0].toUpperCase() + name.slice(1).replaceAll('_', ' ')]));
   fill($('view'), Object.entries(VIEW_WORDS));
   $('scene').addEventListener('change', () => hooks.scene($('scene').value));
   $('view').addEventListener('change', () => hooks.view($('view').value));

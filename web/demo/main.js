@@ -1,6 +1,6 @@
 // The page: puts the room, the screen, the pointer, the keys and the panel together.
 import { Relief } from '../relief/relief.js';
-import { $, bindPanel, VIEW_NAMES } from './controls.js';
+import { $, bindPanel, clipOf, VIEW_NAMES } from './controls.js';
 import { takeFiles } from './files.js';
 import { listenToKeys } from './keys.js';
 import { offerAr } from './parts.js';
@@ -51,6 +51,7 @@ async function play(page, open) {
     page.player.play(await open());
     touches.clear();
     $('leave').hidden = page.room.clip === null;
+    $('simulated').hidden = page.room.clip !== null;
     $('about').textContent = page.room.clip ? `${page.room.clip.name}, with bodies in it` : SCENES[page.room.name].about;
   } catch (error) {
     fail(error);
@@ -65,6 +66,22 @@ function openFile(page, file) {
     say(`${file.name}: ${source.count} frames. Nothing of it leaves this machine.`);
     return source;
   });
+}
+
+/** A scene; one in a clip of ours loads it first. */
+async function openScene(page, name) {
+  const clip = clipOf(SCENES[name]);
+  if (clip === null || page.room.clip !== null) {
+    await play(page, () => page.room.openScene(name));
+    return;
+  }
+  try {
+    const response = await fetch(clip);
+    if (!response.ok) throw new Error(`${clip}: ${response.status} ${response.statusText}`);
+    await openFile(page, new File([await response.blob()], clip));
+  } catch (error) {
+    fail(error);
+  }
 }
 
 function throwBody(page, u, v, drag = 0) {
@@ -119,6 +136,7 @@ function bindButtons(page, acts) {
   $('clear').addEventListener('click', () => { page.room.relief.removeAll(); redraw(page); });
   $('leave').addEventListener('click', () => {
     page.room.leaveFile();
+    if (clipOf(SCENES[$('scene').value])) $('scene').value = 'demo';
     play(page, () => page.room.openScene($('scene').value));
   });
   $('seek').addEventListener('input', () => {
@@ -152,7 +170,7 @@ function makePage(relief) {
     thrown: (u, v, drag) => throwBody(page, u, v, drag),
     turned: (x, y, zoom) => { page.room.turn(x, y, zoom); if (page.player.isPaused) redraw(page); } });
   page.panel = bindPanel(SCENES, {
-    scene: (name) => play(page, () => page.room.openScene(name)),
+    scene: (name) => openScene(page, name),
     view: (name) => chooseView(page, VIEW_NAMES.indexOf(name)),
     gravity: (value) => page.room.setGravity(value),
   });
