@@ -19,6 +19,14 @@ function fileOf(folders, path) {
   return existsSync(file) ? file : null;
 }
 
+const packed = new Map(); // by file and time: a browser waits for no second packing
+
+function packedOf(file) {
+  const key = `${file} ${statSync(file).mtimeMs}`;
+  if (!packed.has(key)) packed.set(key, gzipSync(readFileSync(file)));
+  return packed.get(key);
+}
+
 function answer(folders, path, request, response) {
   const file = fileOf(folders, path);
   if (file === null) {
@@ -26,7 +34,7 @@ function answer(folders, path, request, response) {
     return;
   }
   const isPacked = /\bgzip\b/.test(request.headers['accept-encoding'] ?? '') && extname(file) in TYPES;
-  const body = isPacked ? gzipSync(readFileSync(file)) : readFileSync(file);
+  const body = isPacked ? packedOf(file) : readFileSync(file);
   response.writeHead(200, {
     'content-type': TYPES[extname(file)] ?? 'application/octet-stream', 'content-length': body.length, 'cache-control': 'no-store',
     ...(isPacked ? { 'content-encoding': 'gzip' } : {}),
