@@ -58,7 +58,9 @@ const char *EXPORT(relief_version)(void)
 void EXPORT(relief_close)(void)
 {
     page_hand_forget();
+    page_touch_forget();
     rlf_pipeline_destroy(&room.pipeline);
+    page_see_forget();
     rlf_source_destroy(&room.source);
     rlf_free(room.depth);
     rlf_free(room.color);
@@ -445,4 +447,24 @@ const float *EXPORT(relief_contacts)(void)
         }
     }
     return out;
+}
+
+/* ---- frames that a see-through device gives: see_through.c -----------------------------------
+ */
+
+rlf_result page_open(const rlf_pipeline_def *def)
+{
+    room.rig = def->reconstruct.rig;
+    return rlf_pipeline_create(def, &room.pipeline);
+}
+
+rlf_result page_push(const rlf_frame *frame)
+{
+    return room.pipeline != NULL ? rlf_pipeline_push(room.pipeline, frame, &room.out)
+                                 : rlf_fail(RLF_ERROR_INVALID, "no room is open: open one first");
+}
+
+rlf_world *page_world(void)
+{
+    return world();
 }

@@ -33,4 +33,22 @@ const rlf_pipeline_output *page_output(void);
 void page_hand_pull(double dt);
 void page_hand_forget(void);
 
+/* api.c: closes what is open; opens a room of such a def for frames that are pushed, after that;
+ * and pushes one. */
+void relief_close(void);
+rlf_result page_open(const rlf_pipeline_def *def);
+rlf_result page_push(const rlf_frame *frame);
+rlf_world *page_world(void); /* NULL while no room is open */
+
+/* see_through.c: when the room has closed. */
+void page_see_forget(void);
+
+/* touch.c: before a step of dt seconds, and before the room closes. */
+void page_touch_move(double dt);
+void page_touch_forget(void);
+/* The pose that the page wrote; false, with a line, when it is none. */
+bool page_pose_read(rlf_pose *out);
+/* stand.c: before the room closes. */
+void page_stand_forget(void);
+
 #endif

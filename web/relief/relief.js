@@ -87,6 +87,12 @@ export class Relief {
     return relief;
   }
 
+  /** The module's own functions: for xr_core.js. */
+  get functions() { return this.#e; }
+
+  /** What went wrong last, in words. */
+  get trouble() { return this.#string(this.#e.relief_error()); }
+
   get version() { return this.#string(this.#e.relief_version()); }
 
   /** Opens the synthetic room, e.g. 'synthetic:room?seed=2&color=480x270'. */
