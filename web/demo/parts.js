@@ -1,2 +1,2 @@
-// What a build may have beside the page. Enter AR: export { offerAr } from './ar.js';
-export const offerAr = null;
+// What a build may have beside the page.
+export { offerAr } from './ar.js';
