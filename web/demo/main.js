@@ -187,7 +187,7 @@ async function start() {
   await play(page, () => page.room.openScene('demo'));
   $('loading').remove();
   globalThis.reliefPage = page; // for the console, and for tests
-  await offerAr?.({ button: $('ar'), status: say, relief: async () => Relief.load(await wasmBytes()) });
+  await offerAr?.({ button: $('ar'), status: say, reason: $('ar-why'), relief: async () => Relief.load(await wasmBytes()) });
 }
 
 start().catch((error) => {

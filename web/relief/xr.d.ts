@@ -85,4 +85,5 @@ export interface ArSession {
 }
 
 export function arSupport(xr?: unknown): Promise<{ isOffered: boolean; why: string }>;
-export function enterAr(relief: Relief, options?: ArOptions): Promise<ArSession>;
+/** Call it from a press of a button; a function loads the module once the session is there. */
+export function enterAr(relief: Relief | (() => Promise<Relief>), options?: ArOptions): Promise<ArSession>;

@@ -39,7 +39,8 @@ function sessionInit({ usage, formats, matchDepthView }) {
   };
 }
 
-/** Starts a session; call it from a press of a button. An error in words where it cannot be had. */
+/** Starts a session; call it from a press of a button. `relief`: a module, or a function that loads one: a browser forgets
+ * the press while it loads, so the session is asked for first. An error in words where it cannot be had. */
 export async function enterAr(relief, options = {}) {
   const { xr = navigator.xr, tell = () => {}, depth = {} } = options;
   const init = sessionInit({ usage: ['cpu-optimized', 'gpu-optimized'], formats: FORMATS, matchDepthView: true, ...depth });
@@ -52,7 +53,7 @@ export async function enterAr(relief, options = {}) {
     throw new Error(words, { cause: error });
   }
   try {
-    const ar = new ArSession(relief, session, options);
+    const ar = new ArSession(typeof relief === 'function' ? await relief() : relief, session, options);
     await ar.start();
     return ar;
   } catch (error) {
