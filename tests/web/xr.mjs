@@ -103,6 +103,7 @@ for (const far of [50, Infinity]) {
   const good = (timeMs) => shown(v, 'float32', timeMs);
   const broken = (field, at) => ({ ...good(40), [field]: good(40)[field].map((x, i) => (i === at ? NaN : x)) });
   see.open(good(0));
+  assert.throws(() => see.push(good(NaN)), /time nan ms: it must be finite/);
   see.push(good(0));
   assert.throws(() => see.push(broken('pose', 13)), /pose: element 13 is not finite/);
   assert.throws(() => see.push(broken('projection', 0)), /projection matrix: element 0/);
@@ -225,7 +226,10 @@ for (const far of [50, Infinity]) {
   see.pinch(0, null);
   step(4);
   assert.ok(see.bodies()[0].velocity[1] < 0.6, 'and lets go');
-  step(60);
+  step(20);
+  const { byteLength } = relief.functions.memory.buffer;
+  step(40);
+  assert.equal(relief.functions.memory.buffer.byteLength, byteLength, 'a frame takes no memory');
   assert.ok(Math.abs(see.bodies()[0].position[1] - 0.06) < 0.01, `it fell: ${see.bodies()[0].position}`);
 
   const shelf = see.addBox([0.6, 0.02, 0.6], [0, 0.8, -0.3], [0, 0, 0, 1]);

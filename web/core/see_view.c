@@ -42,6 +42,9 @@ rlf_result see_numbers_check(const see_numbers *n)
         result =
             rlf_fail(RLF_ERROR_INVALID, "rawValueToMeters is %g: it must be above 0", n->raw_to_m);
     }
+    if (result == RLF_OK && !rlf_is_finite(n->time_ms)) {
+        result = rlf_fail(RLF_ERROR_INVALID, "time %g ms: it must be finite", n->time_ms);
+    }
     const bool is_metric = n->near_m == 0.0; /* as the page says, not as it computes */
     if (result == RLF_OK && !(n->every >= 1.0 && n->every <= EVERY_MAX)) {
         result =
