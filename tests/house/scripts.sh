@@ -12,13 +12,13 @@ for script in "$root"/script/* "$root"/.ci/run "$root"/tests/house/*.sh; do
         exit 1
     }
 done
-for name in bootstrap demo deb docs bare test bench portable peers report format lines silhouettes thresholds sentences figures; do
+for name in bootstrap demo deb docs bare test bench portable peers report format lines silhouettes thresholds sentences figures web; do
     "$root/script/$name" --help | grep -q '^usage: script/'"$name" || {
         echo "script/$name --help: no usage line" >&2
         exit 1
     }
 done
-for name in bootstrap deb bare bench portable docs peers report format lines silhouettes thresholds sentences figures; do
+for name in bootstrap deb bare bench portable docs peers report format lines silhouettes thresholds sentences figures web; do
     status=0
     "$root/script/$name" --no-such-option >/dev/null 2>&1 || status=$?
     if [ "$status" -ne 2 ]; then
@@ -31,6 +31,7 @@ done
 "$root/script/bootstrap" --list | grep -qx libimgui-dev # the panel is in the default window
 "$root/script/bootstrap" --small --list | grep -qx libpng-dev
 "$root/script/bootstrap" --packages --list | grep -qx debhelper
+"$root/script/bootstrap" --web --list | grep -qx wasi-libc
 if "$root/script/bootstrap" --small --list | grep -q 'gl\|av\|cmocka\|++'; then
     echo "scripts: bootstrap --small installs what a window, MP4, models or tests need" >&2
     exit 1

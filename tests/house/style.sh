@@ -13,9 +13,9 @@ marks="TO""DO|FIX""ME|XX""X|HA""CK"
 list_files() {
     for folder in app examples include lab web src tests cmake script docs scenes .ci; do
         if [ -d "$folder" ]; then
-            find "$folder" -type f \( -name '*.[ch]' -o -name '*.cmake' -o -name '*.txt' \
-                -o -name '*.sh' -o -name '*.md' -o -name '*.json' -o -name '*.glsl' \
-                -o -path 'script/*' -o -path '.ci/*' \)
+            find "$folder" -name node_modules -prune -o -type f \( -name '*.[ch]' \
+                -o -name '*.cmake' -o -name '*.txt' -o -name '*.sh' -o -name '*.md' -o -name '*.json' -o -name '*.glsl' \
+                -o -path 'script/*' -o -path '.ci/*' \) -print
         fi
     done
     for file in README.md CHANGELOG.md CMakeLists.txt CMakePresets.json; do
