@@ -50,6 +50,10 @@ static const struct {
                         "build libfreenect2 from source (not in Debian), then `cmake --preset "
                         "release -DRELIEF_WITH_FREENECT2=ON` and build again",
                         HAS(RLF_HAVE_FREENECT2)},
+    [PART_WEBSOCKET] = {"WebSocket",
+                        RLF_GET_PART("libwebsockets-dev", DEFAULT, "RELIEF_WITH_WEBSOCKET"),
+                        HAS(RLF_HAVE_WEBSOCKET)},
+    [PART_OSC] = {"OSC", RLF_GET_PART("liblo-dev", DEFAULT, "RELIEF_WITH_OSC"), HAS(RLF_HAVE_OSC)},
     [PART_OPENCV] = {"calibrate", RLF_GET_PART("libopencv-calib3d-dev", ALL, "RELIEF_WITH_OPENCV"),
                      HAS(RLF_HAVE_OPENCV)},
 };

@@ -17,6 +17,8 @@ typedef enum part {
     PART_OPENNI2,
     PART_FREENECT,
     PART_FREENECT2,
+    PART_WEBSOCKET,
+    PART_OSC,
     PART_OPENCV,
     PART_COUNT
 } part;

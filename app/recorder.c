@@ -18,6 +18,8 @@ struct recorder {
     rlf_source_info info;
     char path[4096];
     bool is_running; /* set under `fills`; the rest is there while it is */
+    bool is_ending;  /* no more comes; the thread still writes, until has_ended */
+    _Atomic bool has_ended;
     rlf_recording *recording;
     record_queue queue;
     pthread_t thread;
@@ -117,6 +119,7 @@ static void *write_all(void *context)
     struct timespec cpu = {0};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &cpu);
     r->cpu_s = (double)cpu.tv_sec + 1e-9 * (double)cpu.tv_nsec;
+    r->has_ended = true;
     return NULL;
 }
 
@@ -128,7 +131,7 @@ static rlf_result start(recorder *r, const char *path)
     if (result != RLF_OK) {
         return result;
     }
-    r->has_failed = r->has_last = false;
+    r->has_failed = r->has_last = r->has_ended = false;
     r->written = (rlf_recording_status){0};
     r->dropped = r->left = 0;
     r->leaves_rest = false;
@@ -203,17 +206,24 @@ static void tell_left(const recorder *r)
     }
 }
 
-/* Waits until all is written. */
-static rlf_result stop(recorder *r, recorder_status *out)
+/* Nothing more comes in; what waits is still to be written. */
+static void begin_end(recorder *r)
 {
     pthread_mutex_lock(&r->fills);
     r->is_running = false;
     pthread_mutex_unlock(&r->fills);
     record_queue_close(&r->queue);
+    r->is_ending = true;
+}
+
+/* Waits until all is written. */
+static rlf_result finish_end(recorder *r, recorder_status *out)
+{
     if (command_interrupted) {
         end_soon(r);
     }
     pthread_join(r->thread, NULL);
+    r->is_ending = false;
     tell_left(r);
     rlf_recording_status written;
     rlf_result result = rlf_recording_close(&r->recording, &written);
@@ -224,6 +234,14 @@ static rlf_result stop(recorder *r, recorder_status *out)
                              r->has_failed && r->options.is_beside_loop};
     record_queue_free(&r->queue);
     return result;
+}
+
+static rlf_result stop(recorder *r, recorder_status *out)
+{
+    if (!r->is_ending) {
+        begin_end(r);
+    }
+    return finish_end(r, out);
 }
 
 rlf_result recorder_destroy(recorder **recorder_pointer, recorder_status *out)
@@ -237,7 +255,7 @@ rlf_result recorder_destroy(recorder **recorder_pointer, recorder_status *out)
     if (r->observed != NULL) {
         rlf_source_observe(r->observed, NULL, NULL);
     }
-    const rlf_result result = r->is_running ? stop(r, &status) : RLF_OK;
+    const rlf_result result = r->is_running || r->is_ending ? stop(r, &status) : RLF_OK;
     if (out != NULL) {
         *out = status;
     }
@@ -257,9 +275,39 @@ static void name_file(char *out, size_t size)
     }
 }
 
+rlf_result recorder_switch(recorder *r, bool is_on)
+{
+    char path[64];
+    if (r == NULL) {
+        return rlf_fail(RLF_ERROR_UNSUPPORTED, "record: this run has no recorder");
+    }
+    if (is_on == r->is_running) {
+        return RLF_OK;
+    }
+    if (!is_on) {
+        begin_end(r);
+        return RLF_OK;
+    }
+    if (r->is_ending) {
+        return rlf_fail(RLF_ERROR_DEVICE, "record: the last recording is still being written");
+    }
+    name_file(path, sizeof(path));
+    return start(r, path);
+}
+
+void recorder_settle(recorder *r)
+{
+    recorder_status status;
+    if (r != NULL && r->is_ending && r->has_ended) {
+        (void)finish_end(r, &status);
+        rlf_log(RLF_LOG_INFO, "recorded %s: %llu frames, %llu dropped", r->path,
+                (unsigned long long)status.written.frames, (unsigned long long)status.dropped);
+    }
+}
+
 rlf_result recorder_toggle(recorder *r, char *out_message, size_t message_size)
 {
-    if (!r->is_running) {
+    if (!r->is_running && !r->is_ending) {
         char path[64];
         name_file(path, sizeof(path));
         const rlf_result result = start(r, path);

@@ -57,6 +57,10 @@ bool recorder_has_failed(recorder *recorder);
 recorder_status recorder_get_status(recorder *recorder);
 /* Ends the recording, or begins one with a name of its own here; says which. */
 rlf_result recorder_toggle(recorder *recorder, char *out_message, size_t message_size);
+/* The same without waiting for what is still to be written: recorder_settle, once a frame, finishes
+ * the file when it is. A NULL recorder is an error. */
+rlf_result recorder_switch(recorder *recorder, bool is_on);
+void recorder_settle(recorder *recorder);
 /* What is being recorded, for the screen; false when nothing is. */
 bool recorder_describe(recorder *recorder, char *out, size_t size);
 /* Waits until all is written and finishes the file. The pointer is nulled even when that fails. */

@@ -89,6 +89,7 @@ static rlf_result run_headless(const run_options *o, session *s, run_output *out
         }
         if (result == RLF_OK) {
             result = run_output_add(output, &frame);
+            publisher_apply(output->publisher, s->pipeline, output->recorder);
         }
         if (result != RLF_OK) {
             return result;
@@ -139,9 +140,10 @@ static void print_summary(const run_options *o, session *s, const run_output *ou
     run_output_print_summary(output, o->is_headless ? renderer : "in a window", &frames);
     run_room_print(&output->room, &o->room, rlf_pipeline_get_map(s->pipeline), words);
     recorder_print_summary(words, &o->session.record, recorded);
+    publisher_print_summary(output->publisher, words);
 }
 
-static int run_session(run_options *o, session *s)
+static int run_session(run_options *o, session *s, publisher *events)
 {
     const rlf_source_info *info = rlf_source_get_info(s->source);
     int64_t total = info->frame_count;
@@ -155,9 +157,11 @@ static int run_session(run_options *o, session *s)
         result = run_output_open(&o->output, info, total, &output);
     }
     output.recorder = s->recorder;
+    output.publisher = events;
     if (result == RLF_OK) {
         result = run_frames(o, s, &output);
     }
+    publisher_end(events);
     const rlf_map *map = rlf_pipeline_get_map(s->pipeline);
     if (result == RLF_OK) {
         result = run_room_write(&output.room, &o->room, map, &rlf_source_get_info(s->source)->rig);
@@ -206,7 +210,7 @@ static void choose_end(run_options *o)
 static int run_chosen(run_options *o)
 {
     choose_end(o);
-    o->session.record.is_switched = !o->is_headless;
+    o->session.record.is_switched = !o->is_headless || o->publish.count > 0;
     o->output.scene_path = o->session.scene_path;
     o->output.room = &o->room;
     o->room.source = o->session.source;
@@ -217,14 +221,21 @@ static int run_chosen(run_options *o)
     if (session_open(&o->session, &s) != RLF_OK) {
         return command_not_opened("run");
     }
-    if (o->is_headless && !o->output.is_quiet && !writes_something(o)) {
+    publisher *events = NULL;
+    if (publisher_open(&o->publish, rlf_source_get_info(s.source), o->session.scene_path,
+                       &events) != RLF_OK) {
+        session_close(&s);
+        return command_failed();
+    }
+    if (o->is_headless && !o->output.is_quiet && !writes_something(o) && events == NULL) {
         fprintf(stderr, "relief run: nothing will be kept: add --video FILE, --pictures DIR or "
                         "--log DIR\n");
     }
     o->output.finds_gravity = s.scene.finds_gravity;
     o->output.is_light_given = o->session.is_light_set;
-    const int status = run_session(o, &s);
+    const int status = run_session(o, &s, events);
     session_close(&s);
+    publisher_destroy(&events);
     run_window_end();
     return status;
 }

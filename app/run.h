@@ -2,6 +2,7 @@
 #ifndef RELIEF_APP_RUN_H
 #define RELIEF_APP_RUN_H
 
+#include "publish/publish.h"
 #include "recorder.h"
 #include "relief/io.h"
 #include "session.h"
@@ -70,8 +71,9 @@ typedef struct run_output {
     int64_t frame_total;      /* for progress; -1 = unknown */
     rlf_video *video;
     rlf_csv_log *log;
-    recorder *recorder; /* borrowed; NULL = none */
-    run_room room;      /* close it */
+    recorder *recorder;   /* borrowed; NULL = none */
+    publisher *publisher; /* borrowed; NULL = none */
+    run_room room;        /* close it */
     int64_t frames, pictures;
     int64_t last_index;         /* of the frames */
     rlf_image_rgba8 last_image; /* of the pipeline's, while it is not stepped */
@@ -136,6 +138,7 @@ typedef struct run_options {
     rlf_orbit orbit;
     run_room_options room;
     run_window_options window;
+    publish_list publish; /* where events go */
 } run_options;
 
 /* Returns -1 to go on, or an exit status. */

@@ -28,6 +28,16 @@ static void print_output_help(void)
         "  --save-map FILE.map   at the end: that room for --map; keys voxel, memory\n");
 }
 
+static void print_publish_help(void)
+{
+    printf("  --publish PLACE       contacts, gestures, poses and regions for other programs, and\n"
+           "                        their commands; ws:[HOST:]PORT, JSON by WebSocket, or\n"
+           "                        osc:[HOST:]PORT; on this machine unless HOST says more; up to\n"
+           "                        4 times. Keys: every=N (poses of each N-th frame), of osc\n"
+           "                        listen=[HOST:]PORT (for commands), of ws origin=URL (a web\n"
+           "                        page that may connect). See docs/events.md\n");
+}
+
 static void print_camera_help(void)
 {
     printf(
@@ -81,6 +91,7 @@ static void print_help(void)
         "                        stop (default where frames are written or counted)\n"
         "  --frames N            stop after N frames\n");
     print_output_help();
+    print_publish_help();
     print_camera_help();
     print_view_help();
     printf("  --gravity X,Y,Z       m/s^2 to the right, down and forward, in place of the\n"
@@ -374,6 +385,13 @@ static int read_options(int argc, char **argv, run_options *o)
         RECORDER_OPTIONS(&o->session.record),
         {0},
     };
+    const option_def publish_keys[] = {
+        ROW_CHOICE("every", &o->publish, publish_take_every, "use a number from 1 to 1000"),
+        ROW_CHOICE("listen", &o->publish, publish_take_listen, "give [HOST:]PORT, of osc alone"),
+        ROW_CHOICE("origin", &o->publish, publish_take_origin,
+                   "give http://HOST:PORT of the page, of ws alone"),
+        {0},
+    };
     const option_def map_keys[] = {MAP_KEYS(o), {0}};
     const option_def mesh_keys[] = {
         MAP_KEYS(o),
@@ -384,6 +402,12 @@ static int read_options(int argc, char **argv, run_options *o)
         WORLD_OPTIONS(&o->session),
         VIEW_OPTIONS(o),
         OUTPUT_OPTIONS(o),
+        {.name = "publish",
+         .kind = OPTION_CHOICE,
+         .out = &o->publish,
+         .take = publish_take,
+         .choices = PUBLISH_CHOICES,
+         .keys = publish_keys},
         ROW_FLAG("headless", &o->is_headless),
         {.name = "window", .kind = OPTION_KEYS, .keys = window_keys},
         ROW_INT64("frames", &o->frame_count, 1, 1000000000),

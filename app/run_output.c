@@ -136,6 +136,7 @@ rlf_result run_output_add(run_output *out, const rlf_pipeline_output *frame)
     out->light = frame->render.light_direction;
     out->is_light_estimated = frame->render.is_light_estimated;
     print_progress(out);
+    publisher_frame(out->publisher, frame);
     recorder_add_bodies(out->recorder, frame->frame.time_ns, frame->snapshot);
     rlf_result result = run_room_add(&out->room, out->options.room, frame);
     if (result == RLF_OK && out->options.log_folder != NULL) {

@@ -23,7 +23,10 @@ typedef struct run_stage {
 
 static rlf_result on_frame(void *context, const rlf_pipeline_output *frame)
 {
-    return run_output_add(((run_stage *)context)->output, frame);
+    const run_stage *stage = context;
+    const rlf_result result = run_output_add(stage->output, frame);
+    publisher_apply(stage->output->publisher, stage->session->pipeline, stage->output->recorder);
+    return result;
 }
 
 static rlf_result on_picture(void *context, const rlf_image_rgba8 *image, char *out_message,

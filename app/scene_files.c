@@ -131,16 +131,20 @@ static void explain(const char *text, char *out_message, size_t message_size)
                    count > 0 ? ": " : "", suggest_text(text, names, true, nearest));
 }
 
+bool scene_files_find_shipped(const char *name, char out_path[SCENE_PATH])
+{
+    char folder[SCENE_PATH];
+    return find_folder(folder) &&
+           snprintf(out_path, SCENE_PATH, "%s/%s" ENDING, folder, name) < SCENE_PATH &&
+           is_file(out_path);
+}
+
 bool scene_files_find(const char *text, char out_path[SCENE_PATH], char *out_message,
                       size_t message_size)
 {
-    char folder[SCENE_PATH];
     const bool is_path = ends_in_json(text) || is_file(text);
-    int length = snprintf(out_path, SCENE_PATH, "%s", text);
-    if (!is_path && find_folder(folder)) {
-        length = snprintf(out_path, SCENE_PATH, "%s/%s" ENDING, folder, text);
-    }
-    if (length < SCENE_PATH && (is_path || is_file(out_path))) {
+    if (is_path ? snprintf(out_path, SCENE_PATH, "%s", text) < SCENE_PATH
+                : scene_files_find_shipped(text, out_path)) {
         return true;
     }
     explain(text, out_message, message_size);

@@ -24,5 +24,7 @@ int32_t scene_files_list(scene_entry *out, int32_t capacity);
  * scene has that name. */
 bool scene_files_find(const char *text, char out_path[SCENE_PATH], char *out_message,
                       size_t message_size);
+/* Path of a scene that comes with Relief; false where none has that name. */
+bool scene_files_find_shipped(const char *name, char out_path[SCENE_PATH]);
 
 #endif

@@ -65,6 +65,23 @@ if(TARGET relief_app)
   endforeach()
 endif()
 
+# Events for other programs: what can be tested without a network.
+if(TARGET relief_app)
+  set(names test_publish)
+  if(RELIEF_WITH_OSC AND relief_osc_FOUND)
+    list(APPEND names test_publish_osc)
+  endif()
+  foreach(name IN LISTS names)
+    relief_test(${PROJECT_SOURCE_DIR}/tests/app/${name}.c app)
+    target_link_libraries(${name} PRIVATE relief_command relief_io relief)
+  endforeach()
+  # And with one: the examples of docs/events.md, friends, and strangers who are slow or hostile.
+  add_test(NAME app.publish_network
+           COMMAND ${CMAKE_CURRENT_LIST_DIR}/test_publish.sh $<TARGET_FILE:relief_app>
+                   ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/app_publish)
+  set_tests_properties(app.publish_network PROPERTIES LABELS app SKIP_RETURN_CODE 77 TIMEOUT 600)
+endif()
+
 if(TARGET relief_app AND RELIEF_WITH_VIEWER)
   relief_test(${PROJECT_SOURCE_DIR}/tests/app/test_recent.c app)
   target_sources(test_recent PRIVATE ${PROJECT_SOURCE_DIR}/app/recent.c)
