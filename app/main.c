@@ -42,6 +42,7 @@ static const moved_word moved[] = {
     {"run", "grab", "--hands grab"},
     {"run", "match-light", "--light auto"},
     {"run", "no-match-light", "--light scene"},
+    {"run", "legend", "--view 'NAME?legend'"},
     {"run", "no-real-shade", "--shade near"},
     {"run", "no-real-ambient", "--shade cast"},
     {NULL, NULL, NULL},

@@ -58,8 +58,8 @@ static void print_view_help(void)
         "  --view NAME[,NAME...] camera (default), depth, normals, mesh, regions, foreground,\n"
         "                        background, velocity, thickness, reason, points, contacts,\n"
         "                        known, hands, map;\n"
-        "                        up to four of them side by side\n"
-        "  --legend              what the colours of every view mean, with units, in the picture\n"
+        "                        up to four of them side by side; key legend: what their\n"
+        "                        colours mean, with units, in the picture ('depth?legend')\n"
         "  --orbit YAW,PITCH[,ZOOM]   where points and map are seen from: degrees to the\n"
         "                        right and up, and the distance, 1 being the camera's\n"
         "  --light NAME          auto: bodies as dark and as tinted as the camera's picture, and\n"
@@ -369,8 +369,8 @@ static const char *const *view_names(void)
          .out = (o),                                                                               \
          .take = take_views,                                                                       \
          .choices = "is not a list of up to four views",                                           \
-         .names = view_names()},                                                                   \
-        ROW_FLAG("legend", &(o)->shows_legend),                                                    \
+         .names = view_names(),                                                                    \
+         .keys = view_keys},                                                                       \
         ROW_CHOICE("orbit", &(o)->orbit, options_take_orbit, OPTIONS_ORBIT),                       \
         ROW_CHOICE("light", &(o)->session, take_light, "use auto, scene, or X,Y,Z, not all zero"), \
         ROW_CHOICE("shade", &(o)->session, take_shade, "use on, cast, near or off"),               \
@@ -379,6 +379,7 @@ static const char *const *view_names(void)
 static int read_options(int argc, char **argv, run_options *o)
 {
     const option_def window_keys[] = WINDOW_KEYS(o);
+    const option_def view_keys[] = {ROW_FLAG("legend", &o->shows_legend), {0}};
     const option_def picture_keys[] = PICTURE_KEYS(&o->output);
     const option_def record_keys[] = {
         ROW_FLAG("bodies", &o->session.record.keeps_bodies),

@@ -80,6 +80,7 @@ expect_error 2 "^relief: 'sources' is now \`relief list sources\`" sources
 expect_error 2 "^relief: 'fuse' is now \`relief run SOURCE --headless --mesh ROOM.ply\`" fuse clip --out room.ply
 expect_error 2 "^relief run: --picture-every is now --pictures DIR?every=N" run synthetic:room --picture-every 5
 expect_error 2 "^relief run: --no-match-light is now --light scene" run synthetic:room --no-match-light
+expect_error 2 "^relief run: --legend is now --view" run synthetic:room --legend
 expect_error 2 "^relief run: --poses is now --camera source" run synthetic:room --poses=source
 [ "$("$relief" --help | grep -cE '^  (run|record|place|export|info|calibrate|list) ')" -eq 7 ] || fail "not seven commands"
 [ "$("$relief" run --help | grep -cE '^ +--')" -le 28 ] || fail "run has more than 28 options"
@@ -145,8 +146,8 @@ grep -q "^light: .* given$" stdout.txt || fail "a light was given: $(cat stdout.
 
 # A legend is in the picture that asked for one, and in no other.
 expect_done run "synthetic:empty?color=480x270" --headless --frames 1 --quiet --view depth --pictures plain
-expect_done run "synthetic:empty?color=480x270" --headless --frames 1 --quiet --view depth --pictures legend --legend
-cmp -s plain/000000.png legend/000000.png && fail "--legend draws nothing"
+expect_done run "synthetic:empty?color=480x270" --headless --frames 1 --quiet --view "depth?legend" --pictures legend
+cmp -s plain/000000.png legend/000000.png && fail "the key legend draws nothing"
 expect_error 2 "needs a SOURCE" run --headless
 expect_error 2 "live or thesis" run synthetic:room --profile both
 expect_error 2 "not a list of up to four views" run "synthetic:room?color=96x54" --headless --view smell
