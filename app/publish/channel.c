@@ -9,9 +9,6 @@ rlf_result publish_channel_init(publish_channel *c)
     pthread_mutex_init(&c->lock, NULL);
     c->reading = -1;
     c->moments = rlf_alloc(PUBLISH_SLOTS * sizeof c->moments[0]);
-    if (c->moments != NULL) { /* touched now, and not by the first frames */
-        memset(c->moments, 0, PUBLISH_SLOTS * sizeof c->moments[0]);
-    }
     return c->moments != NULL ? RLF_OK : RLF_ERROR_MEMORY;
 }
 

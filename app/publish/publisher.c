@@ -9,8 +9,8 @@
 #include <signal.h>
 #include <string.h>
 
-#define BODIES_MAX                                                                                 \
-    256 /* that commands may have in the room at a time: more would slow the frames */
+/* That commands may have in the room at a time: more would slow the frames. */
+#define BODIES_MAX 256
 
 struct publisher {
     publish_channel channels[PUBLISH_MAX];
@@ -127,7 +127,6 @@ rlf_result publisher_open(const publish_list *list, const rlf_source_info *info,
     if (p == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    memset(p, 0, sizeof *p);
     p->T_world_camera = rlf_pose_identity();
     rlf_result result = publish_scenes_create(scene_path, &p->scenes);
     for (int32_t i = 0; i < list->count && result == RLF_OK; i++) {

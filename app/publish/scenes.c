@@ -28,7 +28,6 @@ rlf_result publish_scenes_create(const char *scene_path, publish_scenes **out)
     if (s == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    memset(s, 0, sizeof *s);
     pthread_mutex_init(&s->lock, NULL);
     const char *slash = scene_path != NULL ? strrchr(scene_path, '/') : NULL;
     if (scene_path != NULL) {

@@ -319,7 +319,6 @@ static rlf_result websocket_open(publish_channel *c)
     if (s == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    memset(s, 0, sizeof *s);
     s->channel = c;
     c->net = s;
     s->context = create_context(s);
