@@ -25,7 +25,8 @@ bool viewer_panel_is_built(void);
 /* NULL: this build has none, or this context cannot have one. After the window is open. */
 viewer_panel *viewer_panel_create(struct viewer *v);
 void viewer_panel_destroy(viewer_panel **panel);
-/* Draws it at the right of the window and does what its user asks for. Before the swap. */
+/* Draws it at the right of the window, where that has room for it, and does what its user asks for;
+ * writes the viewer's lines over the picture in its own typeface. Before the swap. */
 void viewer_panel_draw(viewer_panel *panel);
 /* Part of the window that it takes, in the unit of mouse positions. */
 int32_t viewer_panel_get_width(const viewer_panel *panel);

@@ -13,7 +13,8 @@ enum panel_request { PANEL_NOTHING, PANEL_SOURCE, PANEL_SCENE, PANEL_SETTING, PA
 
 struct viewer_panel {
     viewer *v;
-    float scale; /* of fine screens */
+    float scale; /* that the style was made for; 0 = none yet */
+    bool has_light_style;
     rlf_window_choice sources[RLF_WINDOW_CHOICES_MAX], scenes[RLF_WINDOW_CHOICES_MAX];
     int source_count, scene_count;
     bool has_lists;
@@ -27,6 +28,18 @@ struct viewer_panel {
 void panel_ask_for(viewer_panel *p, panel_request request, const char *text);
 /* Grey text in as many lines as it takes. */
 void panel_note(const char *text);
+
+/* panel_style.cpp: typeface, colours and sizes for the window as it is now. Between the back ends'
+ * new frame and imgui's. */
+void panel_set_style(viewer_panel *p);
+/* A name at the left; the control that follows takes the rest of the line. `tip` is shown under the
+ * mouse; NULL = none. */
+void panel_label(const char *name, const char *tip);
+/* Of what was drawn last. */
+void panel_tip(const char *text);
+
+/* panel_lines.cpp */
+void panel_write_lines(viewer_panel *p);
 
 void panel_draw_source(viewer_panel *p);
 void panel_draw_bodies(viewer_panel *p);
