@@ -17,25 +17,14 @@ bool viewer_panel_is_built(void)
 
 viewer_panel *viewer_panel_create(struct viewer *v)
 {
-    GLFWwindow *window = v->window.handle;
-    if (glfwGetWindowAttrib(window, GLFW_CLIENT_API) != GLFW_OPENGL_API) {
-        return nullptr; /* imgui's loader knows desktop OpenGL alone */
-    }
     viewer_panel *p = (viewer_panel *)rlf_alloc(sizeof *p);
-    if (p == nullptr) {
-        return nullptr;
-    }
-    memset(p, 0, sizeof *p);
-    p->v = v;
-    p->down = rlf_vec3_make(0.0, 1.0, 0.0);
-    ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr; /* nothing is written where the user works */
-    ImGui_ImplGlfw_InitForOpenGL(window, true);
-    if (!ImGui_ImplOpenGL3_Init("#version 330")) {
-        ImGui_ImplGlfw_Shutdown();
-        ImGui::DestroyContext();
+    if (p != nullptr && !panel_context_open(v->window.handle)) {
         rlf_free(p);
-        return nullptr;
+        p = nullptr;
+    }
+    if (p != nullptr) {
+        p->v = v;
+        p->down = rlf_vec3_make(0.0, 1.0, 0.0);
     }
     return p;
 }
@@ -45,9 +34,7 @@ void viewer_panel_destroy(viewer_panel **panel)
     if (*panel == nullptr) {
         return;
     }
-    ImGui_ImplOpenGL3_Shutdown();
-    ImGui_ImplGlfw_Shutdown();
-    ImGui::DestroyContext();
+    panel_context_close();
     rlf_free(*panel);
     *panel = nullptr;
 }
@@ -59,7 +46,7 @@ int32_t viewer_panel_get_width(const viewer_panel *panel)
         return 0;
     }
     viewer_window_get_size(&panel->v->window, &width, &height);
-    const int32_t own = (int32_t)(VIEWER_PANEL_WIDTH * (panel->scale > 0.0f ? panel->scale : 1.0f));
+    const int32_t own = (int32_t)(VIEWER_PANEL_WIDTH * (panel->style.scale > 0.0f ? panel->style.scale : 1.0f));
     return width >= 2 * own && height >= 100 ? own : 0;
 }
 
@@ -191,7 +178,7 @@ void viewer_panel_draw(viewer_panel *p)
     const int32_t own = window->panel_width;
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
-    panel_set_style(p);
+    panel_set_style(&p->style, window->handle, p->v->is_light);
     press_taps(p, true);
     lead_list(p);
     ImGui::NewFrame();

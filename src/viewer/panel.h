@@ -3,6 +3,8 @@
 #define RLF_VIEWER_PANEL_H
 
 #include "base/messages.h"
+#include "relief/window.h"
+#include "viewer/window.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -30,6 +32,14 @@ void viewer_panel_destroy(viewer_panel **panel);
 void viewer_panel_draw(viewer_panel *panel);
 /* Part of the window that it takes, in the unit of mouse positions. */
 int32_t viewer_panel_get_width(const viewer_panel *panel);
+
+/* The start page's list, over what was drawn in the window. NULL: as of the panel. */
+typedef struct viewer_menu viewer_menu;
+viewer_menu *viewer_menu_create(viewer_window *window);
+void viewer_menu_destroy(viewer_menu **menu);
+/* Returns the one that was clicked, -1 = none. `selected` is in view. Before the swap. */
+int32_t viewer_menu_draw(viewer_menu *menu, const rlf_window_choice *choices, int32_t count,
+                         int32_t selected);
 
 #ifdef __cplusplus
 }

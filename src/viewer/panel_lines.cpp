@@ -29,8 +29,8 @@ void panel_write_lines(viewer_panel *p)
 {
     const viewer *v = p->v;
     ImDrawList *list = ImGui::GetBackgroundDrawList();
-    const float height = ImGui::GetTextLineHeight(), padding = PADDING * p->scale;
-    ImVec2 at(MARGIN * p->scale, MARGIN * p->scale);
+    const float height = ImGui::GetTextLineHeight(), padding = PADDING * p->style.scale;
+    ImVec2 at(MARGIN * p->style.scale, MARGIN * p->style.scale);
     for (int32_t i = 0; i < v->line_count; i++) {
         const char *text = v->lines[i];
         const float wide = ImGui::CalcTextSize(text).x + (v->line_marks[i] != 0 ? height : 0.0f);

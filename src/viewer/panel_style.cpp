@@ -1,7 +1,8 @@
-/* The panel's looks: its typeface, its colours, and how large they are on this monitor. */
+/* Dear ImGui in a window, and its looks: its typeface, its colours, and how large they are on this monitor. */
 #include "viewer/panel_parts.h"
 
 #include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 
 #include <math.h>
@@ -98,21 +99,43 @@ static float wanted_scale(GLFWwindow *window)
     return rlf_clamp(desktop > high ? desktop : high, 1.0, 4.0);
 }
 
-void panel_set_style(viewer_panel *p)
+bool panel_context_open(GLFWwindow *window)
 {
-    const float scale = wanted_scale(p->v->window.handle);
-    if (scale == p->scale && p->has_light_style == p->v->is_light) {
+    if (glfwGetWindowAttrib(window, GLFW_CLIENT_API) != GLFW_OPENGL_API) {
+        return false; /* imgui's loader knows desktop OpenGL alone */
+    }
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr; /* nothing is written where the user works */
+    ImGui_ImplGlfw_InitForOpenGL(window, true);
+    if (!ImGui_ImplOpenGL3_Init("#version 330")) {
+        ImGui_ImplGlfw_Shutdown();
+        ImGui::DestroyContext();
+        return false;
+    }
+    return true;
+}
+
+void panel_context_close(void)
+{
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+}
+
+void panel_set_style(panel_style *style, GLFWwindow *window, bool is_light)
+{
+    const float scale = wanted_scale(window);
+    if (scale == style->scale && style->is_light == is_light) {
         return;
     }
-    if (scale != p->scale) {
+    if (scale != style->scale) {
         load_typeface(scale);
         ImGui_ImplOpenGL3_DestroyFontsTexture();
         ImGui_ImplOpenGL3_CreateFontsTexture();
     }
     set_measures(scale);
-    set_colours(p->v->is_light);
-    p->scale = scale;
-    p->has_light_style = p->v->is_light;
+    set_colours(is_light);
+    *style = {scale, is_light};
 }
 
 void panel_label(const char *name, const char *tip)

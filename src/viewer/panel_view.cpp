@@ -128,7 +128,7 @@ void panel_draw_settings(viewer_panel *p)
 static void draw_plot(const viewer_panel *p)
 {
     const viewer *v = p->v;
-    const ImVec2 size(ImGui::GetContentRegionAvail().x, PLOT_HEIGHT * p->scale);
+    const ImVec2 size(ImGui::GetContentRegionAvail().x, PLOT_HEIGHT * p->style.scale);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImDrawList *list = ImGui::GetWindowDrawList();
     list->AddRectFilled(at, ImVec2(at.x + size.x, at.y + size.y), ImGui::GetColorU32(ImGuiCol_FrameBg));

@@ -234,8 +234,8 @@ echo "10 a clip of one's own plays and loops"
 
 # The command alone shows the start page; the clip above is its second choice, a scene is below.
 has_list() { # its letters are enlarged, over a grey ceiling
-    shot look && [ "$(convert look.ppm -crop 440x16+8+8 +repage -threshold 75% \
-        -format '%[fx:int(mean*w*h+0.5)]' info:)" -gt 500 ]
+    shot look && [ "$(convert look.ppm -crop 320x16+66+42 +repage -threshold 75% \
+        -format '%[fx:int(mean*w*h+0.5)]' info:)" -gt 150 ]
 }
 "$relief" >run.log 2>&1 &
 pid=$!
