@@ -167,6 +167,7 @@ static void on_cursor(GLFWwindow *handle, double x, double y)
     int height = 0;
     glfwGetWindowSize(handle, &width, &height);
     window->commands.refresh = window->commands.refresh || window->follows_mouse;
+    window->moved_ns = rlf_clock_ns();
     if (window->is_turning && height > 0) {
         window->commands.turn_x += (x - window->turned_x) / height;
         window->commands.turn_y += (y - window->turned_y) / height;

@@ -106,6 +106,7 @@ bool panel_context_open(GLFWwindow *window)
     }
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr; /* nothing is written where the user works */
+    ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange; /* screen.c hides it */
     ImGui_ImplGlfw_InitForOpenGL(window, true);
     if (!ImGui_ImplOpenGL3_Init("#version 330")) {
         ImGui_ImplGlfw_Shutdown();

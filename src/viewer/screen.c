@@ -4,6 +4,8 @@
 #include <GLFW/glfw3.h>
 #include <stdio.h>
 
+#define POINTER_NS 2000000000 /* of rest, before the pointer of a full screen hides */
+
 static viewer_window *watched; /* GLFW tells of monitors without saying for which window */
 
 static GLFWmonitor *find(int32_t number)
@@ -84,6 +86,16 @@ void viewer_screen_toggle(viewer_window *window)
     glfwSetWindowAttrib(window->handle, GLFW_AUTO_ICONIFY, GLFW_FALSE);
     glfwSetWindowMonitor(window->handle, monitor, 0, 0, mode->width, mode->height,
                          mode->refreshRate);
+}
+
+void viewer_screen_hide_pointer(viewer_window *window, int64_t now_ns)
+{
+    const bool is_hidden = viewer_screen_is_full(window) && now_ns - window->moved_ns > POINTER_NS;
+    if (is_hidden != window->is_pointer_hidden) {
+        glfwSetInputMode(window->handle, GLFW_CURSOR,
+                         is_hidden ? GLFW_CURSOR_HIDDEN : GLFW_CURSOR_NORMAL);
+        window->is_pointer_hidden = is_hidden;
+    }
 }
 
 static void on_monitor(GLFWmonitor *monitor, int event)

@@ -159,18 +159,21 @@ static bool run_commands(start_page *page)
 static rlf_result run(start_page *page, const volatile sig_atomic_t *interrupted)
 {
     rlf_result result = draw(page);
-    bool is_present_due = true;
+    int32_t presents = 2; /* the list shows what it was told one picture later */
     while (result == RLF_OK && page->chosen < 0) {
         if (viewer_window_should_close(&page->window) ||
             (interrupted != NULL && *interrupted != 0)) {
             return RLF_END;
         }
-        if (is_present_due) {
+        if (presents > 0) {
             present(page);
+            presents--;
         }
-        viewer_window_poll(&page->window, WAIT_S);
-        is_present_due = run_commands(page);
-        result = is_present_due ? draw(page) : RLF_OK;
+        viewer_window_poll(&page->window, presents > 0 ? 0.0 : WAIT_S);
+        if (run_commands(page)) {
+            presents = 2;
+            result = draw(page);
+        }
     }
     return result;
 }

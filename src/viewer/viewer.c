@@ -214,6 +214,7 @@ static rlf_result run_loop(viewer *v)
         measure_panel(v);
         int64_t now = rlf_clock_ns();
         viewer_end_old_messages(v, now);
+        viewer_screen_hide_pointer(&v->window, now);
         is_playing = !v->is_paused && !v->is_at_end;
         if (v->is_step_due || (is_playing && now >= v->due_ns)) {
             result = step(v);

@@ -51,6 +51,8 @@ typedef struct viewer_window {
     bool is_key_taken;   /* a control of the panel has the focus */
     int taps[VIEWER_TAPS_MAX]; /* keys that went down since the panel was drawn */
     int32_t tap_count;
+    int64_t moved_ns; /* when the mouse moved last */
+    bool is_pointer_hidden;
     bool follows_mouse; /* what is shown changes with the mouse: the panel is open */
 } viewer_window;
 
@@ -94,6 +96,8 @@ void viewer_window_take_input(viewer_window *window);
 rlf_result viewer_screen_choose(viewer_window *window, int32_t number);
 void viewer_screen_toggle(viewer_window *window);
 bool viewer_screen_is_full(const viewer_window *window);
+/* Hides the pointer of a full screen while the mouse rests, and shows it otherwise. */
+void viewer_screen_hide_pointer(viewer_window *window, int64_t now_ns);
 /* Watches monitors: when the one of the full screen is unplugged, the window is as it was before.
  */
 void viewer_screen_watch(viewer_window *window);
