@@ -21,30 +21,30 @@ const native = (...options) => execFileSync(command, options, { encoding: 'utf8'
 async function withPage(run, { path = '/demo/', viewport = { width: 1280, height: 900 }, ...options } = {}) {
   const { page, watched } = await openPage(browser, { viewport, ...options });
   await page.goto(path.startsWith('file:') ? path : server.url + path);
-  await page.waitForFunction(() => globalThis.reliefPage?.player.source.index >= 0);
+  await page.waitForFunction(() => globalThis.reliefPage?.player.source?.index >= 0);
   await run(page, watched);
   assert.deepEqual(watched.errors, [], 'nothing on the console');
   if (!path.startsWith('file:')) assert.deepEqual(outside(watched, server.url), [], 'no request to elsewhere');
   await page.close();
 }
 
-const indexOf = (page) => page.evaluate(() => globalThis.reliefPage.player.source.index);
+const indexOf = (page) => page.evaluate(() => globalThis.reliefPage.player.source?.index);
 
 /** Pauses and begins again, so that the frame is the same on every machine. */
 async function toFrame(page, frame) {
   await page.click('#pause');
   await page.click('#reset');
-  await page.waitForFunction(() => globalThis.reliefPage.player.source.index === 0);
+  await page.waitForFunction(() => globalThis.reliefPage.player.source?.index === 0);
   for (let i = await indexOf(page); i < frame; i++) {
     await page.keyboard.press('n');
-    await page.waitForFunction((n) => globalThis.reliefPage.player.source.index > n, i);
+    await page.waitForFunction((n) => globalThis.reliefPage.player.source?.index > n, i);
   }
   assert.equal(await indexOf(page), frame);
 }
 
 async function goesOn(page) {
   const before = await indexOf(page);
-  await page.waitForFunction((n) => globalThis.reliefPage.player.source.index !== n, before);
+  await page.waitForFunction((n) => globalThis.reliefPage.player.source?.index !== n, before);
 }
 
 async function told(page, pattern) {
@@ -136,7 +136,7 @@ const checks = {
       await toFrame(page, 85); // nothing stands between the camera and the visitor
       const [x, y] = await page.evaluate(visitorOnPicture);
       const box = await page.locator('#stage').boundingBox();
-      const bodies = await page.evaluate(() => globalThis.reliefPage.room.relief.bodies().length);
+      const bodies = await page.evaluate(async () => (await globalThis.reliefPage.room.relief.call('bodies')).length);
       await page.mouse.move(box.x + x * box.width, box.y + y * box.height);
       await page.mouse.down();
       await page.mouse.move(box.x + x * box.width, box.y + (y + 0.8) * box.height);
@@ -145,28 +145,28 @@ const checks = {
       for (let i = 0; i < 40 && !met.has('foreground'); i++) {
         const before = await indexOf(page);
         await page.click('#step');
-        await page.waitForFunction((n) => globalThis.reliefPage.player.source.index > n, before);
-        for (const other of await page.evaluate(() => globalThis.reliefPage.room.relief.contacts().map((c) => c.other))) met.add(other);
+        await page.waitForFunction((n) => globalThis.reliefPage.player.source?.index > n, before);
+        for (const other of await page.evaluate(() => globalThis.reliefPage.room.relief.call('met'))) met.add(other);
       }
       assert.ok(met.has('foreground'), `met: ${[...met]}`);
       await told(page, /hit somebody/);
       await page.mouse.click(box.x + 0.3 * box.width, box.y + 0.4 * box.height);
       await page.click('#step');
-      await page.waitForFunction((n) => globalThis.reliefPage.room.relief.bodies().length === n, bodies + 2);
+      await page.waitForFunction(async (n) => (await globalThis.reliefPage.room.relief.call('bodies')).length === n, bodies + 2);
     });
   },
 
   async 'a body is carried by mouse and by finger'() {
     await withPage(async (page) => {
       await page.selectOption('#scene', 'touch');
-      await page.waitForFunction(() => globalThis.reliefPage.player.source.index > 2);
+      await page.waitForFunction(() => globalThis.reliefPage.player.source?.index > 2);
       const place = await page.evaluate(bodyOnPicture);
-      const before = await page.evaluate(() => globalThis.reliefPage.room.relief.bodies()[0].position);
+      const before = await page.evaluate(async () => (await globalThis.reliefPage.room.relief.call('bodies'))[0].position);
       const box = await page.locator('#stage').boundingBox();
       const at = [box.x + place[0] * box.width, box.y + place[1] * box.height];
       await page.evaluate(dragByTouch, [at, [at[0] + 60, at[1] - 120]]);
       await goesOn(page);
-      await page.waitForFunction((y) => globalThis.reliefPage.room.relief.bodies()[0].position[1] < y - 0.1, before[1]);
+      await page.waitForFunction(async (y) => (await globalThis.reliefPage.room.relief.call('bodies'))[0].position[1] < y - 0.1, before[1]);
       await page.evaluate(() => document.getElementById('stage').dispatchEvent(new PointerEvent('pointerup', { pointerId: 7 })));
     });
   },
@@ -184,8 +184,8 @@ const checks = {
         await drop(page, name, buffer);
         await told(page, new RegExp(`${name}: 12 frames`));
         await goesOn(page);
-        const { has, bodies } = await page.evaluate(() => ({ has: globalThis.reliefPage.room.clip !== null,
-          bodies: globalThis.reliefPage.room.relief.bodies().length }));
+        const { has, bodies } = await page.evaluate(async () => ({ has: globalThis.reliefPage.room.clip !== null,
+          bodies: (await globalThis.reliefPage.room.relief.call('bodies')).length }));
         assert.ok(has && bodies === 2, `${name}: ${bodies} bodies`);
         assert.equal(`hash ${await page.evaluate(hashOfClip)}`, wanted, `${name}: the bits of the command`);
       }
@@ -223,12 +223,12 @@ const checks = {
 
   async 'out of memory is told, and the room goes on'() {
     await withPage(async (page) => {
-      const text = await page.evaluate(() => {
+      const text = await page.evaluate(async () => {
         const { room } = globalThis.reliefPage;
         const lens = { width: 16000, height: 16000, fx: 9000, fy: 9000, cx: 8000, cy: 8000 };
         room.clip = { name: 'huge', camera: lens, frames: [{ timeMs: 0 }] };
         try {
-          room.openScene('demo');
+          await room.openScene('demo');
         } catch (error) {
           return error.message;
         } finally {
@@ -314,10 +314,10 @@ const checks = {
         .filter((e) => !(e.textContent.trim() || e.labels?.length > 0 || e.ariaLabel)).map((e) => e.id));
       assert.deepEqual(names, [], 'controls without a name');
       await page.focus('#stage');
-      const before = await page.evaluate(() => globalThis.reliefPage.room.relief.bodies().length);
+      const before = await page.evaluate(async () => (await globalThis.reliefPage.room.relief.call('bodies')).length);
       await page.keyboard.press('ArrowLeft');
       await page.keyboard.press('Enter');
-      await page.waitForFunction((n) => globalThis.reliefPage.room.relief.bodies().length === n + 1, before);
+      await page.waitForFunction(async (n) => (await globalThis.reliefPage.room.relief.call('bodies')).length === n + 1, before);
       await page.keyboard.press('v');
       assert.equal(await page.inputValue('#view'), 'depth');
       await page.keyboard.press(' ');
@@ -369,12 +369,11 @@ const checks = {
 // ---- functions that run in the page -------------------------------------------------------------
 
 /** Where in the picture the middle of the visitor is, as shares. */
-function visitorOnPicture() {
-  const { relief } = globalThis.reliefPage.room;
-  const front = relief.plane('foreground'), depth = relief.plane('depth');
+async function visitorOnPicture() {
+  const [front, depth, rayX, rayY, width] = await globalThis.reliefPage.room.relief.do([['plane', 'foreground'], ['plane', 'depth'],
+    ['plane', 'rayX'], ['plane', 'rayY'], ['width']]);
   const near = [];
   for (let i = 0; i < front.length; i++) if (front[i] && depth[i] > 0) near.push(i);
-  const { width } = relief;
   const mean = (of) => near.reduce((sum, i) => sum + of(i), 0) / near.length;
   const x = mean((i) => i % width), y = mean((i) => Math.floor(i / width));
   const middle = near.reduce((best, i) => {
@@ -382,14 +381,14 @@ function visitorOnPicture() {
     return far(i) < far(best) ? i : best;
   }, near[0]);
   const z = depth[middle];
-  const point = [z * relief.plane('rayX')[middle] - 0.052, z * relief.plane('rayY')[middle], z];
+  const point = [z * rayX[middle] - 0.052, z * rayY[middle], z];
   const f = 1081 / 1920;
   return [0.5 + f * point[0] / point[2], 0.5 + f * 960 / 540 * point[1] / point[2]];
 }
 
 /** Where in the picture the first body is, as shares. */
-function bodyOnPicture() {
-  const [x, y, z] = globalThis.reliefPage.room.relief.bodies()[0].position;
+async function bodyOnPicture() {
+  const [{ position: [x, y, z] }] = await globalThis.reliefPage.room.relief.call('bodies');
   const f = 1081 / 1920;
   return [0.5 + f * (x - 0.052) / z, 0.5 + f * 960 / 540 * y / z];
 }

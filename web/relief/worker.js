@@ -1,0 +1,9 @@
+// The worker of remote.js: one Relief in a thread of its own.
+import { serveCalls } from './calls.js';
+import { Relief } from './relief.js';
+
+let relief = null;
+serveCalls(globalThis, async (wasm) => {
+  relief = await Relief.load(wasm);
+  return relief;
+}, () => relief.functions.memory.buffer);
