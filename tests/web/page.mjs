@@ -224,7 +224,8 @@ const checks = {
   async 'out of memory is told, and the room goes on'() {
     await withPage(async (page) => {
       const text = await page.evaluate(async () => {
-        const { room } = globalThis.reliefPage;
+        const { room, player } = globalThis.reliefPage;
+        player.hold();
         const lens = { width: 16000, height: 16000, fx: 9000, fy: 9000, cx: 8000, cy: 8000 };
         room.clip = { name: 'huge', camera: lens, frames: [{ timeMs: 0 }] };
         try {
@@ -233,6 +234,7 @@ const checks = {
           return error.message;
         } finally {
           room.clip = null;
+          player.play(room.source);
         }
         return 'nothing was told';
       });

@@ -2,6 +2,7 @@
 import { Relief } from '../relief/relief.js';
 import { $, bindPanel, clipOf, VIEW_NAMES } from './controls.js';
 import { takeFiles } from './files.js';
+import { greet } from './greet.js';
 import { listenToKeys } from './keys.js';
 import { offerAr } from './parts.js';
 import { Player } from './player.js';
@@ -192,6 +193,8 @@ async function start() {
   $('scene').value = 'demo';
   await play(page, () => page.room.openScene('demo'));
   $('loading').remove();
+  greet(relief, { say, throwBody: (x, y) => throwBody(page, ...page.pointer.pixel([x, y]), 0.6),
+    isOn: () => page.room.name === 'demo' && page.room.clip === null && !page.player.isPaused });
   globalThis.reliefPage = page; // for the console, and for tests
   await offerAr?.({ button: $('ar'), status: say, reason: $('ar-why'), relief: () => Relief.load(relief.module) });
 }
