@@ -1,5 +1,4 @@
 // The page: puts the room, the screen, the pointer, the keys and the panel together.
-import { Relief } from '../relief/relief.js';
 import { $, bindPanel, clipOf, VIEW_NAMES } from './controls.js';
 import { takeFiles } from './files.js';
 import { greet } from './greet.js';
@@ -12,7 +11,7 @@ import { Room } from './room.js';
 import { makeSay } from './say.js';
 import { MODELS, SCENES } from './scenes.js';
 import { Screen } from './screen.js';
-import { started } from './wasm.js';
+import { started, startRelief } from './wasm.js';
 
 const PLOT_EVERY = 10; // frames
 const { say, fail } = makeSay($('status'));
@@ -196,7 +195,7 @@ async function start() {
   greet(relief, { say, throwBody: (x, y) => throwBody(page, ...page.pointer.pixel([x, y]), 0.6),
     isOn: () => page.room.name === 'demo' && page.room.clip === null && !page.player.isPaused });
   globalThis.reliefPage = page; // for the console, and for tests
-  await offerAr?.({ button: $('ar'), status: say, reason: $('ar-why'), relief: () => Relief.load(relief.module) });
+  await offerAr?.({ button: $('ar'), status: say, reason: $('ar-why'), relief: () => startRelief(relief.module) });
 }
 
 start().catch((error) => {

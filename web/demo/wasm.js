@@ -18,6 +18,9 @@ function makeWorker() {
   return new Worker(URL.createObjectURL(new Blob([inside.textContent], { type: 'text/javascript' })));
 }
 
-/** The room, in a thread of its own or in this one. */
-export const started = RemoteRelief.start({ wasm: wasmBytes(), worker: makeWorker });
+/** A core in a thread of its own, or in this one. */
+export const startRelief = (wasm) => RemoteRelief.start({ wasm, worker: makeWorker });
+
+/** The room's. */
+export const started = startRelief(wasmBytes());
 started.catch(() => {}); // main.js tells

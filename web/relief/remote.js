@@ -27,6 +27,9 @@ export class RemoteRelief {
   /** Whether the core has a thread of its own. */
   get isElsewhere() { return this.#worker !== null; }
 
+  /** The Relief of this thread; null where the core is elsewhere. */
+  get local() { return this.#local; }
+
   /** One call: a method of Relief, or a getter, by its name. */
   async call(name, ...args) {
     const [result] = await this.do([[name, ...args]]);
