@@ -1,5 +1,5 @@
-/* The colour camera's picture of the static room: four rays per pixel, lit once. One that is to open
- * soon is coarse at first, and a row of tiles becomes right with every frame. */
+/* The colour camera's picture of the static room: four rays per pixel, lit once. One that is to
+ * open soon is coarse at first, and a row of tiles becomes right with every frame. */
 #include "sim/color.h"
 #include "sim/material.h"
 

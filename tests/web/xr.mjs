@@ -185,7 +185,7 @@ for (const far of [50, Infinity]) {
 // ---- the synthetic room with its person, as a turned buffer of a device in another place of the world
 {
   const room = await Relief.load();
-  room.openSynthetic('synthetic:room?noise=0&color=0&frames=150', { bodies: 'none', draws: false });
+  room.openSynthetic('synthetic:room?noise=0&color=0&frames=110', { bodies: 'none', draws: false });
   const buffers = [];
   const pose = poseOf([0.5, 1.4, -0.3], 0.8, 0);
   const people = [];
