@@ -28,6 +28,7 @@ async function withPage(run, { path = '/demo/', viewport = { width: 1280, height
   await page.close();
 }
 
+const isElsewhere = (page) => page.evaluate(() => globalThis.reliefPage.room.relief.isElsewhere);
 const indexOf = (page) => page.evaluate(() => globalThis.reliefPage.player.source?.index);
 
 /** Pauses and begins again, so that the frame is the same on every machine. */
@@ -74,10 +75,12 @@ function compare(page, png, shot) {
 }
 
 const checks = {
-  async 'loads, and nothing is asked of elsewhere'() {
+  async 'loads, asks nothing of elsewhere, and throws until its visitor acts'() {
     await withPage(async (page) => {
       await goesOn(page);
       assert.equal(await page.evaluate(() => globalThis.reliefPage.screen.kind), 'webgl2');
+      assert.equal(await isElsewhere(page), true, 'the core has a worker');
+      await page.waitForFunction(async () => (await globalThis.reliefPage.room.relief.call('bodies')).length > 2);
     });
   },
 
@@ -264,11 +267,12 @@ const checks = {
     });
   },
 
-  async 'without WebGL there is a picture, too'() {
+  async 'without WebGL and without a worker there is a picture, too'() {
     await withPage(async (page) => {
+      assert.equal(await isElsewhere(page), false);
       assert.equal(await page.evaluate(() => globalThis.reliefPage.screen.kind), 'canvas');
       await goesOn(page);
-    }, { path: '/demo/?flat' });
+    }, { path: '/demo/?flat&alone' });
   },
 
   async 'a minute in the background is told, and nothing races'() {
