@@ -80,6 +80,7 @@ const checks = {
       await goesOn(page);
       assert.equal(await page.evaluate(() => globalThis.reliefPage.screen.kind), 'webgl2');
       assert.equal(await isElsewhere(page), true, 'the core has a worker');
+      assert.equal(await page.evaluate(mostAsked), 1, 'one frame is asked for at a time');
       await page.waitForFunction(async () => (await globalThis.reliefPage.room.relief.call('bodies')).length > 2);
     });
   },
@@ -373,6 +374,21 @@ const checks = {
 };
 
 // ---- functions that run in the page -------------------------------------------------------------
+
+/** The most frames that were asked for and had not come yet, in a second. */
+async function mostAsked() {
+  const { relief } = globalThis.reliefPage.room, run = relief.do.bind(relief);
+  let asked = 0, most = 0;
+  relief.do = async (calls, spare) => {
+    const isFrame = calls[0][0] === 'step';
+    most = Math.max(most, asked += isFrame ? 1 : 0);
+    const results = await run(calls, spare);
+    asked -= isFrame ? 1 : 0;
+    return results;
+  };
+  await new Promise((resolve) => { setTimeout(resolve, 1000); });
+  return most;
+}
 
 /** Where in the picture the middle of the visitor is, as shares. */
 async function visitorOnPicture() {

@@ -56,15 +56,19 @@ export class Player {
     this.isBusy = true;
     this.isStepDue = false;
     this.due = this.due + period > now - period ? this.due + period : now;
+    const frame = await this.#next(source);
+    this.isBusy = false; // before the next is asked for: there is one at a time
+    if (frame && source === this.source) this.#show(frame);
+  }
+
+  async #next(source) {
     try {
       await source.prepare();
-      const frame = source === this.source ? await source.advance() : null;
-      this.isBusy = false;
-      if (source === this.source) this.#show(frame);
+      return source === this.source ? await source.advance() : null;
     } catch (error) {
       if (source === this.source) this.hooks.failed(error);
+      return null;
     }
-    this.isBusy = false;
   }
 
   /** The next frame is asked for before this one is drawn, where another thread computes it. */
