@@ -30,11 +30,20 @@ function add(path, seen = new Set()) {
   order.push(`modules[${JSON.stringify(path)}] = (() => {\n${body}\nreturn { ${[...exported, ...listed].join(', ')} };\n})();`);
 }
 
-add(normalize('demo/main.js'));
-const script = `'use strict';\nconst modules = {};\n${order.join('\n')}`.replaceAll('</script', '<\\/script');
+/** A module and all that it imports, as one script. */
+function scriptOf(path) {
+  order.length = 0;
+  add(normalize(path));
+  return `'use strict';\nconst modules = {};\n${order.join('\n')}`.replaceAll('</script', '<\\/script');
+}
+
+const script = scriptOf('demo/main.js'), worker = scriptOf('relief/worker.js');
 const wasm = gzipSync(readFileSync(join(folder, 'relief/relief.wasm')), { level: 9 }).toString('base64');
 const html = read('demo/index.html')
+  .replace(/ *<link rel="(?:module)?preload".*\n/g, '')
+  .replace('<script type="module" src="wasm.js" async></script>\n', '')
   .replace('<link rel="stylesheet" href="style.css">', () => `<style>\n${read('demo/style.css')}</style>`)
-  .replace('<script type="module" src="main.js"></script>',
-    () => `<script id="wasm" type="text/plain">${wasm}</script>\n  <script>\n${script}\n</script>`);
+  .replace('<script type="module" src="main.js"></script>', () => `<script id="wasm" type="text/plain">${wasm}</script>
+  <script id="worker" type="text/plain">${worker}</script>
+  <script>\n${script}\n</script>`);
 writeFileSync(join(folder, 'relief.html'), html);

@@ -104,6 +104,9 @@ typedef struct rlf_synthetic_def {
     bool enable_edge_filter;      /* default true: the driver's invalid band at silhouettes */
     bool enable_color;            /* default true */
     bool enable_truth;            /* default true: made when it is asked for; false saves memory */
+    bool opens_soon; /* default false; true: a standing camera's colour is coarse at first and a
+                        band of 16 rows sharper with each frame, so that less is done before the
+                        first. Depth and truth are the same */
     int32_t color_width, color_height; /* default 960 x 540; fx scales with the width */
     rlf_pool *pool;                    /* borrowed; NULL = one thread */
 } rlf_synthetic_def;

@@ -101,6 +101,32 @@ void rlf_set_allocator(rlf_alloc_fn alloc, rlf_free_fn release, void *context)
     alloc_context = context;
 }
 
+/* Whether memory of the default allocator is zero as it comes. A WebAssembly module's is until it
+ * is used, and the allocator lays blocks one behind another: what lies behind all blocks so far,
+ * but for its own words next to the last one, is new. A page's first picture need not wait until
+ * 150 MB have been written. What the module's memory has grown by later is not asked. */
+#if defined(__wasm__)
+#define ALLOCATOR_WORDS 64 /* bytes; it has two words of 8 there */
+#define LAST_PAGE 65536    /* of the first memory: the allocator ends it with words of its own */
+
+static bool is_new(const void *memory, size_t size)
+{
+    static uintptr_t used, end;
+    const uintptr_t from = (uintptr_t)memory;
+    end = end == 0 ? __builtin_wasm_memory_size(0) * 65536 - LAST_PAGE : end;
+    const bool is_behind = used > 0 && from >= used && from + size <= end;
+    used = from + size + ALLOCATOR_WORDS > used ? from + size + ALLOCATOR_WORDS : used;
+    return is_behind && alloc_fn == rlf_default_alloc;
+}
+#else
+static bool is_new(const void *memory, size_t size)
+{
+    (void)memory;
+    (void)size;
+    return false;
+}
+#endif
+
 void *rlf_alloc(size_t size)
 {
     if (size > SIZE_MAX - ALIGNMENT) {
@@ -114,7 +140,9 @@ void *rlf_alloc(size_t size)
         rlf_fail(RLF_ERROR_MEMORY, "out of memory: %zu bytes asked for", size);
         return NULL;
     }
-    memset(memory, 0, rounded);
+    if (!is_new(memory, rounded)) {
+        memset(memory, 0, rounded);
+    }
     return memory;
 }
 

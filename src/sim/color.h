@@ -26,12 +26,16 @@ typedef struct synth_color {
     synth_shadow shadow;
     synth_rect dirty; /* where `out` differs from the room */
     const synth_scene *scene;
+    bool is_coarse;     /* what is cast is */
+    int32_t right_rows; /* of tiles, from above: as they should be */
 } synth_color;
 
-/* `color` is zeroed, with view and pool set. Casts and lights the room. */
+/* `color` is zeroed, with view, pool and is_coarse set. Casts and lights the room. */
 rlf_result synth_color_create(synth_color *color, const synth_scene *scene);
 /* Casts that state of the room anew, for a camera that has moved. */
 void synth_color_cast_room(synth_color *color, int32_t state);
+/* Makes a row of tiles right that is coarse yet, if there is one: before a frame. */
+void synth_color_sharpen(synth_color *color);
 void synth_color_destroy(synth_color *color);
 
 /* Paints the scene as it stands now; room_index says which state of the room. */

@@ -1,14 +1,19 @@
-/* The colour camera's picture of the static room: four rays per pixel, lit once. */
+/* The colour camera's picture of the static room: four rays per pixel, lit once. One that is to
+ * open soon is coarse at first, and a row of tiles becomes right with every frame. */
 #include "sim/color.h"
 #include "sim/material.h"
 
 #include <string.h>
+
+enum { COARSE = 4 }; /* pixels of a coarse picture's squares; divides a tile */
 
 typedef struct job {
     synth_color *color;
     const synth_scene *scene;
     synth_color_planes *planes;
     int32_t static_count;
+    int32_t first_row; /* of tiles */
+    bool is_coarse;
 } job;
 
 static synth_site site_of(const synth_part *part, const synth_ray *ray, double t)
@@ -101,11 +106,11 @@ static void cast_corners(const job *j, synth_candidates *candidates, synth_rect 
     }
 }
 
-/* Do all corners of pixel x, y of the tile show the part? */
+/* Do all corners of pixel x, y of the tile show the part? Of a coarse picture nobody asks. */
 static bool is_whole(const corners *c, int32_t x, int32_t y, int32_t part)
 {
-    return c->part[y][x] == part && c->part[y][x + 1] == part && c->part[y + 1][x] == part &&
-           c->part[y + 1][x + 1] == part;
+    return c == NULL || (c->part[y][x] == part && c->part[y][x + 1] == part &&
+                         c->part[y + 1][x] == part && c->part[y + 1][x + 1] == part);
 }
 
 /* Depth and floor light come from the pixel's middle; the colour is the mean of 2 x 2 samples, and
@@ -140,35 +145,99 @@ static void cast_pixel(const job *j, synth_candidates *candidates, const corners
         part->label == RLF_SYNTHETIC_LABEL_FLOOR ? (uint8_t)(255.0 * p.light.lamp_share) : 0;
 }
 
+static void cast_pixels(const job *j, synth_candidates *candidates, synth_rect tile)
+{
+    corners shown;
+    cast_corners(j, candidates, tile, &shown);
+    for (int32_t y = tile.y0; y < tile.y1; y++) {
+        for (int32_t x = tile.x0; x < tile.x1; x++) {
+            cast_pixel(j, candidates, &shown, tile, x, y);
+        }
+    }
+}
+
+/* All of a square is as one pixel of it. */
+static void spread(const job *j, synth_rect square, int32_t x, int32_t y)
+{
+    const size_t width = (size_t)j->color->view.camera.width;
+    const size_t from = (size_t)y * width + (size_t)x;
+    synth_color_planes *p = j->planes;
+    for (int32_t to_y = square.y0; to_y < square.y1; to_y++) {
+        for (int32_t to_x = square.x0; to_x < square.x1; to_x++) {
+            const size_t to = (size_t)to_y * width + (size_t)to_x;
+            memmove(&p->rgba[4 * to], &p->rgba[4 * from], 4);
+            memmove(&p->front[4 * to], &p->front[4 * from], 4);
+            p->z[to] = p->z[from];
+            p->lamp[to] = p->lamp[from];
+        }
+    }
+}
+
+static void cast_squares(const job *j, synth_candidates *candidates, synth_rect tile)
+{
+    for (int32_t y = tile.y0; y < tile.y1; y += COARSE) {
+        for (int32_t x = tile.x0; x < tile.x1; x += COARSE) {
+            const synth_rect square = {x, y, x + COARSE < tile.x1 ? x + COARSE : tile.x1,
+                                       y + COARSE < tile.y1 ? y + COARSE : tile.y1};
+            const int32_t middle_x = (square.x0 + square.x1) / 2;
+            const int32_t middle_y = (square.y0 + square.y1) / 2;
+            cast_pixel(j, candidates, NULL, tile, middle_x, middle_y);
+            spread(j, square, middle_x, middle_y);
+        }
+    }
+}
+
 static void cast_tiles(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     const job *j = context;
     const rlf_camera *camera = &j->color->view.camera;
     (void)worker;
-    for (int32_t tile_y = begin; tile_y < end; tile_y++) {
+    for (int32_t tile_y = j->first_row + begin; tile_y < j->first_row + end; tile_y++) {
         for (int32_t x0 = 0; x0 < camera->width; x0 += SYNTH_TILE) {
             int32_t y0 = tile_y * SYNTH_TILE;
             synth_rect tile = {x0, y0, x0 + SYNTH_TILE, y0 + SYNTH_TILE};
             tile = synth_rect_grow(tile, 0, camera);
             synth_candidates candidates;
             synth_tile_candidates(j->scene, j->static_count, &j->color->view, tile, &candidates);
-            corners shown;
-            cast_corners(j, &candidates, tile, &shown);
-            for (int32_t y = tile.y0; y < tile.y1; y++) {
-                for (int32_t x = tile.x0; x < tile.x1; x++) {
-                    cast_pixel(j, &candidates, &shown, tile, x, y);
-                }
-            }
+            (j->is_coarse ? cast_squares : cast_pixels)(j, &candidates, tile);
         }
     }
 }
 
-static void cast_room(synth_color *color, const synth_scene *scene, int32_t state)
+static int32_t tile_rows(const synth_color *color)
 {
-    job j = {color, scene, &color->room[state],
-             scene->static_count - (state == 1 ? scene->removed_count : 0)};
-    const int32_t tile_rows = (color->view.camera.height + SYNTH_TILE - 1) / SYNTH_TILE;
-    rlf_parallel_for(color->pool, tile_rows, 1, cast_tiles, &j);
+    return (color->view.camera.height + SYNTH_TILE - 1) / SYNTH_TILE;
+}
+
+/* Rows of tiles from first on. */
+static void cast_room(synth_color *color, const synth_scene *scene, int32_t state, int32_t first,
+                      int32_t count)
+{
+    job j = {.color = color,
+             .scene = scene,
+             .planes = &color->room[state],
+             .static_count = scene->static_count - (state == 1 ? scene->removed_count : 0),
+             .first_row = first,
+             .is_coarse = color->is_coarse};
+    rlf_parallel_for(color->pool, count, 1, cast_tiles, &j);
+}
+
+static int32_t room_states(const synth_scene *scene)
+{
+    return scene->removed_count > 0 ? 2 : 1;
+}
+
+void synth_color_sharpen(synth_color *color)
+{
+    if (color->right_rows >= tile_rows(color)) {
+        return;
+    }
+    color->is_coarse = false;
+    for (int32_t k = 0; k < room_states(color->scene); k++) {
+        cast_room(color, color->scene, k, color->right_rows, 1);
+    }
+    color->right_rows++;
+    color->room_index = -1; /* nothing of the last frame holds */
 }
 
 void synth_color_cast_room(synth_color *color, int32_t state)
@@ -180,8 +249,8 @@ void synth_color_cast_room(synth_color *color, int32_t state)
     memset(planes->front, 0, 4 * pixels);
     memset(planes->z, 0, pixels * sizeof(float));
     memset(planes->lamp, 0, pixels);
-    cast_room(color, color->scene, state);
-    color->room_index = -1; /* nothing of the last frame holds */
+    cast_room(color, color->scene, state, 0, tile_rows(color));
+    color->room_index = -1;
 }
 
 static rlf_result create_room(synth_color *color, const synth_scene *scene, int32_t state)
@@ -197,7 +266,7 @@ static rlf_result create_room(synth_color *color, const synth_scene *scene, int3
         planes->lamp == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    cast_room(color, scene, state);
+    cast_room(color, scene, state, 0, tile_rows(color));
     return RLF_OK;
 }
 
@@ -214,8 +283,8 @@ rlf_result synth_color_create(synth_color *color, const synth_scene *scene)
         return RLF_ERROR_MEMORY;
     }
     rlf_result result = synth_canvas_create(&color->canvas, &color->view);
-    int32_t states = scene->removed_count > 0 ? 2 : 1;
-    for (int32_t k = 0; k < states && result == RLF_OK; k++) {
+    color->right_rows = color->is_coarse ? 0 : tile_rows(color);
+    for (int32_t k = 0; k < room_states(scene) && result == RLF_OK; k++) {
         result = create_room(color, scene, k);
     }
     return result;

@@ -19,9 +19,15 @@ static inline uint32_t synth_hash(uint32_t x)
     return x;
 }
 
+/* What of synth_hash2 many `a` share. */
+static inline uint32_t synth_hash_row(uint32_t b)
+{
+    return synth_hash(b) + 0x9e3779b9u;
+}
+
 static inline uint32_t synth_hash2(uint32_t a, uint32_t b)
 {
-    return synth_hash(a ^ (synth_hash(b) + 0x9e3779b9u));
+    return synth_hash(a ^ synth_hash_row(b));
 }
 
 /* Standard deviation of the sum of four uniform bytes: sqrt(4 (256^2 - 1) / 12). */

@@ -76,20 +76,30 @@ double synth_lamp_share(const synth_scene *scene, int32_t count, const synth_sit
     return 1.0 - count_blocked(scene, &parts, site, 7) / 49.0;
 }
 
+static const double heights[3] = {0.03, 0.10, 0.28}; /* of probes, metres */
+
+/* Parts that may be nearer to a probe than the site is: the distance changes by the way at most. */
+static void find_near(const synth_scene *scene, int32_t count, const synth_site *site, few *out)
+{
+    const double most = 2.0 * heights[2];
+    out->count = 0;
+    for (int32_t i = 0; i < count; i++) {
+        const double reach = scene->bounds[i].radius + most;
+        const rlf_vec3 offset = rlf_sub(site->p, scene->bounds[i].centre);
+        if (rlf_dot(offset, offset) < reach * reach &&
+            synth_shape_gap(&scene->statics[i].shape, site->p) < most + 1e-6) {
+            out->index[out->count++] = i;
+        }
+    }
+}
+
 /* Probes along the normal: a probe at height h that is nearer than h to some surface sees part of
  * the sky blocked (Evans 2006, "Fast approximations for global illumination on dynamic scenes"). */
 double synth_sky_share(const synth_scene *scene, int32_t count, const synth_site *site)
 {
-    static const double heights[3] = {0.03, 0.10, 0.28};
     static const double weights[3] = {0.22, 0.30, 0.34};
-    few near = {.count = 0};
-    for (int32_t i = 0; i < count; i++) {
-        const double reach = scene->bounds[i].radius + 2.0 * heights[2];
-        const rlf_vec3 offset = rlf_sub(site->p, scene->bounds[i].centre);
-        if (rlf_dot(offset, offset) < reach * reach) {
-            near.index[near.count++] = i;
-        }
-    }
+    few near;
+    find_near(scene, count, site, &near);
     double blocked = 0.0;
     for (int k = 0; k < 3; k++) {
         double h = heights[k];
@@ -100,10 +110,8 @@ double synth_sky_share(const synth_scene *scene, int32_t count, const synth_site
             const double radius = ball->radius + h;
             rlf_vec3 offset = rlf_sub(p, ball->centre);
             if (rlf_dot(offset, offset) < radius * radius) {
-                rlf_vec3 normal;
                 nearest =
-                    rlf_min(nearest,
-                            synth_shape_distance(&scene->statics[near.index[i]].shape, p, &normal));
+                    rlf_min(nearest, synth_shape_gap(&scene->statics[near.index[i]].shape, p));
             }
         }
         blocked += weights[k] * (1.0 - rlf_max(0.0, nearest) / h);

@@ -136,6 +136,9 @@ static rlf_result sensor_next(void *self, rlf_frame *out)
         synth_scene_static_count(&sensor->scene, sensor->time) < sensor->scene.static_count;
     synth_depth_render(&sensor->depth, (uint32_t)frame, is_removed ? 1 : 0);
     if (def->enable_color) {
+        if (frame > 0) {
+            synth_color_sharpen(&sensor->color);
+        }
         synth_color_render(&sensor->color, is_removed ? 1 : 0);
         out->color = (rlf_image_rgba8){.data = sensor->color.out,
                                        .width = def->color_width,
@@ -246,6 +249,7 @@ static rlf_result sensor_create(const rlf_synthetic_def *def, rlf_rig *rig, synt
         sensor->color.view.camera = rig->color;
         sensor->color.view.origin = rlf_neg(rig->T_color_depth.p);
         sensor->color.pool = def->pool;
+        sensor->color.is_coarse = def->opens_soon && !sensor->scene.is_moving;
         result = synth_color_create(&sensor->color, &sensor->scene);
     }
     if (result != RLF_OK) {

@@ -19,16 +19,16 @@ static bool solve_quadratic(double a, double b, double c, synth_interval *out)
     return true;
 }
 
-static bool intersect_half_space(rlf_vec3 o, rlf_vec3 d, synth_interval *out)
+static bool intersect_half_space(double o, double d, synth_interval *out)
 {
-    if (d.y == 0.0) {
+    if (d == 0.0) {
         out->near = -FAR_AWAY;
         out->far = FAR_AWAY;
-        return o.y >= 0.0;
+        return o >= 0.0;
     }
-    double t = -o.y / d.y;
-    out->near = d.y > 0.0 ? t : -FAR_AWAY;
-    out->far = d.y > 0.0 ? FAR_AWAY : t;
+    double t = -o / d;
+    out->near = d > 0.0 ? t : -FAR_AWAY;
+    out->far = d > 0.0 ? FAR_AWAY : t;
     return true;
 }
 
@@ -158,7 +158,7 @@ bool synth_shape_meet(const synth_shape *shape, rlf_vec3 o, rlf_vec3 direction, 
     const rlf_quat inverse = rlf_quat_conjugate(shape->T_camera_shape.q);
     const rlf_vec3 d = rlf_rotate(inverse, direction);
     switch (shape->type) {
-    case SYNTH_HALF_SPACE: return intersect_half_space(o, d, out);
+    case SYNTH_HALF_SPACE: return intersect_half_space(o.y, d.y, out);
     case SYNTH_BOX: return intersect_box(shape->size, o, d, out);
     case SYNTH_CONE: return intersect_cone(shape, o, d, out);
     case SYNTH_FRUSTUM: return intersect_frustum(shape, o, d, out);

@@ -45,6 +45,9 @@ rlf_vec3 synth_shape_normal(const synth_shape *shape, rlf_vec3 p);
 /* Signed distance from p, negative inside, and the outward unit normal at the nearest point. */
 double synth_shape_distance(const synth_shape *shape, rlf_vec3 p, rlf_vec3 *out_normal);
 
+/* The distance alone. */
+double synth_shape_gap(const synth_shape *shape, rlf_vec3 p);
+
 /* Radius of a sphere about out_centre that encloses the solid; 1e9 for the half space. */
 double synth_shape_bound(const synth_shape *shape, rlf_vec3 *out_centre);
 

@@ -172,20 +172,31 @@ static double distance_to_ellipsoid(rlf_vec3 size, rlf_vec3 p, rlf_vec3 *normal)
     return s < 0.0 ? -length : length;
 }
 
+/* In the shape's frame. */
+static double distance_to(const synth_shape *shape, rlf_vec3 local, rlf_vec3 *normal)
+{
+    switch (shape->type) {
+    case SYNTH_HALF_SPACE: *normal = rlf_vec3_make(0, -1, 0); return -local.y;
+    case SYNTH_BOX: return distance_to_box(shape->size, local, normal);
+    case SYNTH_CONE: return distance_to_cone(shape, local, normal);
+    case SYNTH_FRUSTUM: return distance_to_frustum(shape, local, normal);
+    default: return distance_to_ellipsoid(shape->size, local, normal);
+    }
+}
+
 double synth_shape_distance(const synth_shape *shape, rlf_vec3 p, rlf_vec3 *out_normal)
 {
-    rlf_vec3 local = rlf_transform_inverse(&shape->T_camera_shape, p);
-    rlf_vec3 normal = rlf_vec3_make(0, -1, 0);
-    double distance = 0.0;
-    switch (shape->type) {
-    case SYNTH_HALF_SPACE: distance = -local.y; break;
-    case SYNTH_BOX: distance = distance_to_box(shape->size, local, &normal); break;
-    case SYNTH_CONE: distance = distance_to_cone(shape, local, &normal); break;
-    case SYNTH_FRUSTUM: distance = distance_to_frustum(shape, local, &normal); break;
-    default: distance = distance_to_ellipsoid(shape->size, local, &normal); break;
-    }
+    const rlf_vec3 local = rlf_transform_inverse(&shape->T_camera_shape, p);
+    rlf_vec3 normal;
+    const double distance = distance_to(shape, local, &normal);
     *out_normal = rlf_rotate(shape->T_camera_shape.q, normal);
     return distance;
+}
+
+double synth_shape_gap(const synth_shape *shape, rlf_vec3 p)
+{
+    rlf_vec3 normal;
+    return distance_to(shape, rlf_transform_inverse(&shape->T_camera_shape, p), &normal);
 }
 
 rlf_vec3 synth_shape_normal(const synth_shape *shape, rlf_vec3 p)

@@ -97,9 +97,43 @@ static void a_covered_outline_is_a_mixture_of_both_sides(void **state)
     rlf_source_destroy(&source);
 }
 
+/* A room that opens soon is another picture at first, sharper from above with every frame, and the
+ * same from the frame on that has sharpened the last band; its depth is the same throughout. */
+static void a_room_that_opens_soon_becomes_the_same(void **state)
+{
+    (void)state;
+    enum { W = 96, H = 54, BAND = 16 };
+    rlf_synthetic_def def = rlf_synthetic_def_default();
+    rlf_source *sources[2];
+    def.enable_truth = false;
+    def.color_width = W;
+    def.color_height = H;
+    def.scene = RLF_SYNTHETIC_CHAIR; /* two states of the room */
+    for (int k = 0; k < 2; k++) {
+        def.opens_soon = k == 1;
+        assert_int_equal(rlf_synthetic_create(&def, &sources[k]), RLF_OK);
+    }
+    for (int32_t n = 0; n < 130; n++) { /* the chair goes at 120 */
+        rlf_frame frames[2];
+        for (int k = 0; k < 2; k++) {
+            assert_int_equal(rlf_source_next(sources[k], &frames[k]), RLF_OK);
+        }
+        const uint8_t *a = frames[0].color.data, *b = frames[1].color.data;
+        assert_memory_equal(frames[0].depth_u16, frames[1].depth_u16,
+                            (size_t)rlf_source_get_info(sources[0])->rig.depth.width * 2);
+        const int32_t right = n * BAND < H ? n * BAND : H;
+        assert_memory_equal(a, b, (size_t)(4 * W * right));
+        assert_int_equal(memcmp(a, b, (size_t)(4 * W * H)) != 0, right < H);
+    }
+    for (int k = 0; k < 2; k++) {
+        rlf_source_destroy(&sources[k]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_room_that_opens_soon_becomes_the_same),
         cmocka_unit_test(a_covered_outline_is_a_mixture_of_both_sides),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

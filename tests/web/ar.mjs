@@ -108,6 +108,16 @@ async function textures() {
   await call('end');
 }
 
+async function elsewhere() {
+  const { isElsewhere, bodies, gaps, times, coreMs, told } = await call('elsewhere');
+  const sent = median(times).toFixed(2);
+  console.log(`ar: core in a worker: ${coreMs.toFixed(1)} ms there, ${sent} ms of a frame here; gap of ${gaps.length} balls ${mm(median(gaps))}`);
+  assert.ok(isElsewhere && bodies === 64 && gaps.length > 30, `${bodies} balls, ${gaps.length} seen; ${JSON.stringify(told)}`);
+  assert.ok(Math.abs(median(gaps)) <= 0.002, `median gap ${mm(median(gaps))}`);
+  assert.deepEqual(told, [], 'nothing was wrong');
+  assert.match(await call('end'), /has ended/);
+}
+
 async function denied() {
   const words = await page.evaluate(async () => {
     const requestSession = async () => { throw new DOMException('no', 'NotAllowedError'); };
@@ -142,6 +152,7 @@ try {
   await picture('touching');
   await troubles();
   await textures();
+  await elsewhere();
   await denied();
   assert.deepEqual(watched.errors, []);
   assert.deepEqual(outside(watched, server.url), []);

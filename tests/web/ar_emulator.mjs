@@ -1,5 +1,6 @@
 // Meta's emulator (npm iwer, @iwer/sem) in the page of the AR test: its rooms, its depth repaired, a session in it.
 import { Relief } from '/relief/relief.js';
+import { RemoteRelief } from '/relief/remote.js';
 import { enterAr } from '/relief/xr.js';
 import { meshOf } from './ar_rays.mjs';
 
@@ -60,10 +61,11 @@ export async function emulate({ room, kinds = ['mesh'], stereo = true }) {
   return { triangles: state.soup.length / 9, planes: device.sem.planes.children.length, boxes: device.sem.boxes.children.length };
 }
 
-export async function enter(options = {}) {
+/** `isElsewhere`: the core is in a worker. */
+export async function enter({ isElsewhere = false, ...options } = {}) {
   const canvas = document.createElement('canvas');
   const gl = canvas.getContext('webgl2', { xrCompatible: true, alpha: true, preserveDrawingBuffer: true });
-  const relief = await Relief.load('/relief/relief.wasm');
+  const relief = isElsewhere ? await RemoteRelief.start({ wasm: '/relief/relief.wasm' }) : await Relief.load('/relief/relief.wasm');
   state.ar = await enterAr(relief, {
     gl,
     clock: () => (state.ms = (state.ms ?? 0) + 1000 / 30), // a frame is 1/30 s, however slow this machine is

@@ -95,6 +95,28 @@ async function lost() {
   return toldSince(from, 'tracking');
 }
 
+/** A session whose core is in a worker: a ball falls and rests, a hand lifts one, and what a frame costs this thread. */
+async function elsewhere() {
+  await enter({ isElsewhere: true });
+  const { ar, relief } = state, { see } = ar;
+  const send = see.send.bind(see), times = [], from = state.told.length;
+  see.send = (...args) => {
+    const start = performance.now();
+    send(...args);
+    times.push(performance.now() - start);
+  };
+  for (let i = 0; i < 64; i++) {
+    const position = [-0.9 + 0.2 * (i % 8), 0.75, -1.7 + 0.2 * Math.floor(i / 8)];
+    see.addBody({ size: [0.05], position, restitution: 0.1, friction: 0.9 });
+  }
+  await frames(150);
+  const bodies = see.bodies();
+  const gaps = bodies.filter((body) => project(state.last.pose.views[0], body.position) !== null)
+    .map((body) => distance(state.soup, body.position) - body.size[0]);
+  return { isElsewhere: relief.isElsewhere, bodies: bodies.length, gaps, times, coreMs: ar.coreMs,
+    told: state.told.slice(from).filter(([kind, words]) => kind !== 'session' && words !== '') };
+}
+
 async function end() {
   await state.ar.session.end();
   return state.ar.ended;
@@ -102,7 +124,7 @@ async function end() {
 
 Object.assign(globalThis, {
   test: {
-    state, emulate, enter, frames, look, showRoom, depthErrors, rest, hiding, touch, anchoring, broken, lost, end,
+    state, emulate, enter, frames, look, showRoom, depthErrors, rest, hiding, touch, anchoring, broken, lost, end, elsewhere,
     readTexture, textureErrors, offerAr, Relief,
   },
 });

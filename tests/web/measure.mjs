@@ -80,8 +80,9 @@ async function wholePage() {
 
 function loadBytes() {
   const of = (path) => gzipSync(readFileSync(join(folder, path)), { level: 9 }).length;
-  const page = readdirSync(join(folder, 'demo'), { recursive: true }).filter((name) => /\.(html|css|js)$/.test(name));
-  const sizes = [...page.map((name) => of(join('demo', name))), of('relief/relief.js'), of('relief/relief.wasm')];
+  const filesOf = (name) => readdirSync(join(folder, name), { recursive: true }).map((file) => join(name, file));
+  const page = [...filesOf('demo'), ...filesOf('relief')].filter((name) => /\.(html|css|js)$/.test(name));
+  const sizes = [...page.map(of), of('relief/relief.wasm')];
   return { all: sizes.reduce((sum, size) => sum + size, 0), wasm: sizes.at(-1) };
 }
 

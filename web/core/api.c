@@ -80,7 +80,7 @@ const rlf_pipeline_output *page_output(void)
 }
 
 /* flags: what a room is opened with. */
-enum { DRAWS = 1, MATCHES_LIGHT = 2 };
+enum { DRAWS = 1, MATCHES_LIGHT = 2, OPENS_SOON = 4 };
 
 static rlf_result make_pipeline(rlf_pipeline_def *def, int32_t kind, int32_t flags)
 {
@@ -97,11 +97,12 @@ static rlf_result make_pipeline(rlf_pipeline_def *def, int32_t kind, int32_t fla
     return result;
 }
 
-static rlf_result open_source(const char *address, int32_t end)
+static rlf_result open_source(const char *address, int32_t end, bool opens_soon)
 {
     rlf_synthetic_def def = rlf_synthetic_def_default();
     rlf_result result = rlf_synthetic_parse(address, &def);
     def.enable_truth = false;
+    def.opens_soon = opens_soon;
     if (result == RLF_OK) {
         result = page_room_check(&def);
     }
@@ -121,7 +122,7 @@ int32_t EXPORT(relief_open_synthetic)(int32_t profile, int32_t scene, int32_t fl
     memcpy(address, room.text, sizeof(address));
     address[sizeof(address) - 1] = '\0';
     relief_close();
-    rlf_result result = open_source(address, end);
+    rlf_result result = open_source(address, end, (flags & OPENS_SOON) != 0);
     if (result == RLF_OK) {
         rlf_pipeline_def def = rlf_pipeline_def_default((rlf_profile)profile, room.source, NULL);
         def.camera = RLF_CAMERA_AUTO;

@@ -1,7 +1,7 @@
 // The page: puts the room, the screen, the pointer, the keys and the panel together.
-import { Relief } from '../relief/relief.js';
 import { $, bindPanel, clipOf, VIEW_NAMES } from './controls.js';
 import { takeFiles } from './files.js';
+import { greet } from './greet.js';
 import { listenToKeys } from './keys.js';
 import { offerAr } from './parts.js';
 import { Player } from './player.js';
@@ -11,28 +11,27 @@ import { Room } from './room.js';
 import { makeSay } from './say.js';
 import { MODELS, SCENES } from './scenes.js';
 import { Screen } from './screen.js';
-import { wasmBytes } from './wasm.js';
+import { started, startRelief } from './wasm.js';
 
 const PLOT_EVERY = 10; // frames
 const { say, fail } = makeSay($('status'));
 const touches = new Set(); // what thrown bodies met: told once each
 
-function show(page) {
-  const picture = page.room.relief.picture();
+function show(page, picture) {
   if (picture) page.screen.show(picture);
 }
 
-function redraw(page) {
+async function redraw(page) {
   try {
-    page.room.relief.redraw();
-    show(page);
+    const [, picture] = await page.room.relief.do([['redraw'], ['picture']]);
+    show(page, picture);
   } catch (error) {
     fail(error);
   }
 }
 
-function tellTouches(page) {
-  for (const { other } of page.room.relief.contacts()) {
+function tellTouches(met) {
+  for (const other of met) {
     if (other !== 'foreground' || touches.has(other)) continue;
     touches.add(other);
     say('A body hit somebody.');
@@ -45,17 +44,22 @@ function tellPlace({ player: { source } }) {
   if (document.activeElement !== $('seek')) $('seek').value = source.count > 1 ? source.index / (source.count - 1) : 0;
 }
 
-/** Opens a room by `open()`. On an error the page says why, and what was open goes on. */
-async function play(page, open) {
-  try {
-    page.player.play(await open());
-    touches.clear();
-    $('leave').hidden = page.room.clip === null;
-    $('simulated').hidden = page.room.clip !== null;
-    $('about').textContent = page.room.clip ? `${page.room.clip.name}, with bodies in it` : SCENES[page.room.name].about;
-  } catch (error) {
-    fail(error);
-  }
+/** Opens a room by `open()`, after those that are being opened. On an error the page says why, and what was open goes on. */
+function play(page, open) {
+  page.opening = (page.opening ?? Promise.resolve()).then(async () => {
+    page.player.hold();
+    try {
+      await open();
+      touches.clear();
+      $('leave').hidden = page.room.clip === null;
+      $('simulated').hidden = page.room.clip !== null;
+      $('about').textContent = page.room.clip ? `${page.room.clip.name}, with bodies in it` : SCENES[page.room.name].about;
+    } catch (error) {
+      fail(error);
+    }
+    if (page.room.source) page.player.play(page.room.source);
+  });
+  return page.opening;
 }
 
 function openFile(page, file) {
@@ -64,7 +68,6 @@ function openFile(page, file) {
   return play(page, async () => {
     const source = await page.room.openFile(file, $('scene').value, onProgress);
     say(`${file.name}: ${source.count} frames. Nothing of it leaves this machine.`);
-    return source;
   });
 }
 
@@ -84,13 +87,13 @@ async function openScene(page, name) {
   }
 }
 
-function throwBody(page, u, v, drag = 0) {
+async function throwBody(page, u, v, drag = 0) {
   if (page.room.isElsewhere) {
     say('No throws in this view: choose another one.');
     return;
   }
   try {
-    page.room.relief.throwBody(u, v, { ...page.panel.throwOptions(), drag });
+    await page.room.relief.call('throwBody', u, v, { ...page.panel.throwOptions(), drag });
   } catch (error) {
     fail(error);
   }
@@ -125,7 +128,10 @@ function makeActs(page) {
     },
     chooseView: (index) => chooseView(page, index),
     aim: (x, y) => pointer.moveAim(x, y),
-    remove: () => say(room.relief.removeAt(...pointer.pixel(pointer.aim)) ? 'Removed.' : 'No body at the aim.'),
+    remove: async () => {
+      const isRemoved = await room.relief.call('removeAt', ...pointer.pixel(pointer.aim));
+      say(isRemoved ? 'Removed.' : 'No body at the aim.');
+    },
   };
 }
 
@@ -133,7 +139,7 @@ function bindButtons(page, acts) {
   for (const [id, act] of [['pause', acts.pause], ['step', acts.step], ['reset', acts.reset], ['throw', acts.throwBody]]) {
     $(id).addEventListener('click', act);
   }
-  $('clear').addEventListener('click', () => { page.room.relief.removeAll(); redraw(page); });
+  $('clear').addEventListener('click', () => { page.room.relief.call('removeAll'); redraw(page); });
   $('leave').addEventListener('click', () => {
     page.room.leaveFile();
     if (clipOf(SCENES[$('scene').value])) $('scene').value = 'demo';
@@ -150,7 +156,7 @@ function bindButtons(page, acts) {
 function makePlayer(page) {
   let frames = 0;
   return new Player({
-    advanced: () => { show(page); tellTouches(page); tellPlace(page); },
+    advanced: ({ picture, met }) => { show(page, picture); tellTouches(met); tellPlace(page); },
     failed: (error) => { fail(error); setPaused(page, true); },
     wasAway: (seconds) => say(`This tab was in the background for ${Math.round(seconds)} s: the room waited.`),
     timed: (ms, periodMs) => {
@@ -178,7 +184,7 @@ function makePage(relief) {
 }
 
 async function start() {
-  const relief = await Relief.load(await wasmBytes());
+  const relief = await started;
   const page = makePage(relief);
   const acts = makeActs(page);
   bindButtons(page, acts);
@@ -186,8 +192,10 @@ async function start() {
   $('scene').value = 'demo';
   await play(page, () => page.room.openScene('demo'));
   $('loading').remove();
+  greet(relief, { say, throwBody: (x, y) => throwBody(page, ...page.pointer.pixel([x, y]), 0.6),
+    isOn: () => page.room.name === 'demo' && page.room.clip === null && !page.player.isPaused });
   globalThis.reliefPage = page; // for the console, and for tests
-  await offerAr?.({ button: $('ar'), status: say, reason: $('ar-why'), relief: async () => Relief.load(await wasmBytes()) });
+  await offerAr?.({ button: $('ar'), status: say, reason: $('ar-why'), relief: () => startRelief(relief.module) });
 }
 
 start().catch((error) => {

@@ -2,7 +2,7 @@
 const AWAY_MS = 1000; // without a callback: the tab was hidden
 
 export class Player {
-  /** hooks: {advanced(), ended(), failed(error), wasAway(seconds), timed(ms, periodMs)}. */
+  /** hooks: {advanced(frame), failed(error), wasAway(seconds), timed(ms, periodMs)}. */
   constructor(hooks) {
     this.hooks = hooks;
     this.source = null;
@@ -23,6 +23,9 @@ export class Player {
     this.due = performance.now();
   }
 
+  /** Asks for no more frames until the next play: another room is being opened. */
+  hold() { this.source = null; }
+
   setPaused(isPaused) {
     this.isPaused = isPaused;
     this.due = performance.now();
@@ -39,6 +42,10 @@ export class Player {
     }
     this.wasHidden = document.hidden;
     this.seen = now;
+    this.#ask(now);
+  }
+
+  #ask(now) {
     const isDue = this.isStepDue || (!this.isPaused && now >= this.due - 1);
     if (this.source && !this.isBusy && isDue) this.#advance(now);
   }
@@ -49,20 +56,27 @@ export class Player {
     this.isBusy = true;
     this.isStepDue = false;
     this.due = this.due + period > now - period ? this.due + period : now;
-    try {
-      await source.prepare();
-      if (source === this.source) this.#run(source, now);
-    } catch (error) {
-      this.hooks.failed(error);
-    }
-    this.isBusy = false;
+    const frame = await this.#next(source);
+    this.isBusy = false; // before the next is asked for: there is one at a time
+    if (frame && source === this.source) this.#show(frame);
   }
 
-  #run(source, now) {
-    const start = performance.now();
-    source.advance();
-    this.hooks.advanced();
-    this.hooks.timed(performance.now() - start, now - this.shown);
+  async #next(source) {
+    try {
+      await source.prepare();
+      return source === this.source ? await source.advance() : null;
+    } catch (error) {
+      if (source === this.source) this.hooks.failed(error);
+      return null;
+    }
+  }
+
+  /** The next frame is asked for before this one is drawn, where another thread computes it. */
+  #show(frame) {
+    const now = performance.now();
+    if (frame.isFromElsewhere && !document.hidden) this.#ask(now);
+    this.hooks.advanced(frame);
+    this.hooks.timed(frame.ms, now - this.shown);
     this.shown = now;
   }
 }

@@ -34,19 +34,37 @@ export class Pointer {
     this.mark.hidden = true;
     this.aim = this.#place(event);
     const isTurn = event.button === 2 || this.hooks.isElsewhere();
-    const isHeld = !isTurn && event.button === 0 && this.hooks.relief.grab(...this.pixel(this.aim));
-    this.press = { at: [event.clientX, event.clientY], last: [event.clientX, event.clientY], isTurn, isHeld, button: event.button };
-    this.stage.classList.toggle('held', isHeld);
+    const at = [event.clientX, event.clientY];
+    this.press = { at, last: at, from: this.aim, place: this.aim, isTurn, isHeld: false, button: event.button };
+    if (!isTurn && event.button === 0) this.press.asked = this.#grab(this.press);
+  }
+
+  /** Whether there was a body to hold is known a little later: it follows then to where the pointer is by now. */
+  async #grab(press) {
+    press.isHeld = await this.hooks.relief.call('grab', ...this.pixel(press.from));
+    if (!press.isHeld || this.press !== press) return;
+    this.stage.classList.add('held');
+    if (press.place !== press.from) this.#carry(press);
+  }
+
+  #carry({ place }) { this.hooks.relief.call('drag', ...this.pixel(place)); }
+
+  async #look(event) {
+    if (event.pointerType !== 'mouse' || this.isLooking) return;
+    this.isLooking = true;
+    const isOver = await this.hooks.relief.call('hasBodyAt', ...this.pixel(this.aim));
+    this.stage.classList.toggle('over', isOver);
+    this.isLooking = false;
   }
 
   #move(event) {
     const place = this.#place(event);
     if (!this.press) {
       this.aim = place;
-      const isOver = event.pointerType === 'mouse' && this.hooks.relief.hasBodyAt(...this.pixel(place));
-      this.stage.classList.toggle('over', isOver);
-    } else if (this.press.isHeld) {
-      this.hooks.relief.drag(...this.pixel(place));
+      this.#look(event);
+    } else if (this.press.asked) {
+      this.press.place = place;
+      if (this.press.isHeld) this.#carry(this.press);
     } else if (this.press.isTurn) {
       const { height } = this.stage.getBoundingClientRect();
       const [x, y] = this.press.last;
@@ -55,25 +73,24 @@ export class Pointer {
     }
   }
 
-  #up(event) {
+  async #up(event) {
     const { press } = this;
-    if (press && press.button === 0 && !press.isHeld && !press.isTurn) {
-      const way = Math.hypot(event.clientX - press.at[0], event.clientY - press.at[1]);
-      const drag = way < DRAG_PX ? 0 : way / this.stage.getBoundingClientRect().height;
-      this.hooks.thrown(...this.pixel(this.aim), drag);
-    }
     this.#end();
+    if (!press?.asked || await press.asked.then(() => press.isHeld)) return;
+    const way = Math.hypot(event.clientX - press.at[0], event.clientY - press.at[1]);
+    const drag = way < DRAG_PX ? 0 : way / this.stage.getBoundingClientRect().height;
+    this.hooks.thrown(...this.pixel(press.from), drag);
   }
 
   #end() {
-    this.hooks.relief.release();
+    this.hooks.relief.call('release');
     this.press = null;
     this.stage.classList.remove('held');
   }
 
   #wheel(event) {
     const steps = -Math.sign(event.deltaY);
-    if (this.press?.isHeld) this.hooks.relief.reach(steps);
+    if (this.press?.isHeld) this.hooks.relief.call('reach', steps);
     else if (this.hooks.isElsewhere()) this.hooks.turned(0, 0, steps);
     else return;
     event.preventDefault();

@@ -28,17 +28,19 @@ export class Room {
   }
 
   /** A scene in the simulated room, or in the recording that is open. What cannot be opened leaves what was. */
-  openScene(name) {
+  async openScene(name) {
+    const source = this.#make(name);
     try {
-      this.source = this.#make(name);
+      await source.open();
+      this.source = source;
       this.name = name;
     } catch (error) {
-      this.source?.open();
+      await this.source?.open();
       throw error;
     } finally {
-      this.#settle();
+      await this.#settle();
     }
-    return this.source;
+    return source;
   }
 
   /** A recording, once its first frame is read; when that fails what was open stays. */
@@ -48,7 +50,7 @@ export class Room {
     await clip.frames[0].depth();
     this.clip = clip;
     try {
-      return this.openScene(name);
+      return await this.openScene(name);
     } catch (error) {
       this.clip = before;
       throw error;
@@ -58,21 +60,20 @@ export class Room {
   leaveFile() { this.clip = null; }
 
   /** What a new room does not know yet. */
-  #settle() {
-    this.setView(this.view);
-    this.relief.setOrbit(this.orbit);
-    if (this.gravity !== null) this.relief.setGravity(0, this.gravity, 0);
+  async #settle() {
+    await this.setView(this.view);
+    await this.relief.call('setOrbit', this.orbit);
+    if (this.gravity !== null) await this.setGravity(this.gravity);
   }
 
   setGravity(value) {
     this.gravity = value;
-    this.relief.setGravity(0, value, 0);
+    return this.relief.call('setGravity', 0, value, 0);
   }
 
   setView(name) {
     this.view = name;
-    this.relief.setView(name);
-    this.relief.setLegend(name !== 'camera');
+    return this.relief.do([['setView', name], ['setLegend', name !== 'camera']]);
   }
 
   get isElsewhere() { return this.view === 'points'; }
@@ -82,6 +83,6 @@ export class Room {
     orbit.yaw -= x;
     orbit.pitch = Math.min(1.5, Math.max(-1.5, orbit.pitch + y));
     orbit.zoom = Math.min(10, Math.max(0.1, orbit.zoom * 0.9 ** zoom));
-    this.relief.setOrbit(orbit);
+    return this.relief.call('setOrbit', orbit);
   }
 }

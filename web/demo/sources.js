@@ -1,20 +1,41 @@
-// Where frames come from: the synthetic room, or a recording. Both play round and round.
+// Where frames come from: the synthetic room, or a recording. Both play round and round. A frame is what the page shows of
+// it: {picture, met, ms, isFromElsewhere}.
 const CUT_MS = 2000; // between the last frame and the first again: long enough for bodies to wait
 
-/** The simulated room of an address. */
-export class RoomSource {
-  constructor(relief, address, scene) {
-    this.relief = relief;
-    this.fps = 30;
-    this.open = () => relief.openSynthetic(address, { bodies: scene, end: 'loop' });
-    this.open();
+class Source {
+  constructor(relief, fps) {
+    Object.assign(this, { relief, fps, index: -1, count: -1 });
   }
 
-  get index() { return this.relief.index; }
-  get count() { return this.relief.count; }
   async prepare() {}
-  advance() { this.relief.step(); }
-  seek(index) { this.relief.seek(index); }
+
+  /** A frame by calls, and what else they return. Pictures come in two buffers in turn: one is on the screen. */
+  async frame(...calls) {
+    const { relief, spare } = this;
+    this.spare = undefined;
+    const [picture, met, ...rest] = (await relief.do([...calls, ['picture'], ['met'], ['index']], spare)).slice(calls.length);
+    this.spare = this.shown;
+    this.shown = relief.isElsewhere ? picture?.data.buffer : undefined;
+    return [{ picture, met, ms: relief.ms, isFromElsewhere: relief.isElsewhere }, ...rest];
+  }
+}
+
+/** The simulated room of an address. */
+export class RoomSource extends Source {
+  constructor(relief, address, scene) {
+    super(relief, 30);
+    this.opening = ['openSynthetic', address, { bodies: scene, end: 'loop', opensSoon: true }];
+  }
+
+  async open() { [, this.count] = await this.relief.do([this.opening, ['count']]); }
+
+  async advance() {
+    const [frame, index] = await this.frame(['step']);
+    this.index = index;
+    return frame;
+  }
+
+  seek(index) { return this.relief.call('seek', index); }
 }
 
 function frameRate(frames) {
@@ -23,21 +44,18 @@ function frameRate(frames) {
 }
 
 /** A recording of recording/open.js, with bodies in it. */
-export class ClipSource {
+export class ClipSource extends Source {
   constructor(relief, clip, scene) {
-    this.relief = relief;
+    super(relief, frameRate(clip.frames));
     this.clip = clip;
-    this.fps = frameRate(clip.frames);
     this.count = clip.frames.length;
     const gravity = clip.gravity ?? 'floor';
-    this.open = () => {
-      relief.openCamera(clip.camera, { bodies: { ...scene, gravity }, matchLight: !clip.isSimulated });
-      this.next = 0;
-      this.index = -1;
-      this.offset = 0;
-      this.time = 0;
-    };
-    this.open();
+    this.opening = ['openCamera', clip.camera, { bodies: { ...scene, gravity }, matchLight: !clip.isSimulated }];
+  }
+
+  async open() {
+    await this.relief.do([this.opening]);
+    Object.assign(this, { next: 0, index: -1, offset: 0, time: 0 });
   }
 
   /** Reads the next frame; one that cannot be read is left out, and ten in a row are an error. */
@@ -55,14 +73,16 @@ export class ClipSource {
     }
   }
 
-  advance() {
+  async advance() {
     const { depth, color, frame } = this.ready;
     const follows = this.next === this.index + 1;
     if (!follows) this.offset = this.time + CUT_MS - frame.timeMs;
     this.time = frame.timeMs + this.offset;
-    this.index = this.next;
+    const taken = this.next;
     this.next = (this.next + 1) % this.count;
-    this.relief.push(depth, this.time, color);
+    const [shown] = await this.frame(['push', depth, this.time, color]);
+    this.index = taken;
+    return shown;
   }
 
   seek(index) { this.next = index; }

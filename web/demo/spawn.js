@@ -1,4 +1,6 @@
 // "spawn" of a scene.json: many bodies from one, at the places and with the variety of the command's.
+import { cosine, sine } from './sine.js';
+
 const MASK = (1n << 64n) - 1n;
 
 /** SplitMix64 (Steele, Lea, Flood 2014): a seed's streams have nothing to do with each other. */
@@ -24,7 +26,7 @@ class Random {
     const u = this.uniform();
     const a = 2 * Math.PI * this.uniform(), b = 2 * Math.PI * this.uniform();
     const s = Math.sqrt(1 - u), c = Math.sqrt(u);
-    return [s * Math.sin(a), s * Math.cos(a), c * Math.sin(b), c * Math.cos(b)];
+    return [s * sine(a), s * cosine(a), c * sine(b), c * cosine(b)];
   }
 }
 
@@ -43,7 +45,7 @@ function placeStack({ count, spacing }) {
 function placeRing({ count, radius }) {
   return Array.from({ length: count }, (_, i) => {
     const angle = 2 * Math.PI * i / count;
-    return [radius * Math.cos(angle), 0, radius * Math.sin(angle)];
+    return [radius * cosine(angle), 0, radius * sine(angle)];
   });
 }
 

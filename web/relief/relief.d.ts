@@ -26,6 +26,8 @@ export interface RoomOptions {
   draws?: boolean;
   /** Bodies are lit as the camera's picture is: for real cameras. */
   matchLight?: boolean;
+  /** Of the synthetic room: its picture is coarse for a second, and comes sooner. Depth and bodies are the same. */
+  opensSoon?: boolean;
   /** Of the synthetic room: what comes after its last frame. */
   end?: 'stop' | 'loop' | 'hold';
 }
@@ -162,5 +164,7 @@ export class Relief {
   setGravity(x: number, y: number, z: number): boolean;
   bodies(): Body[];
   contacts(): Contact[];
+  /** What bodies met in the last frame, each once. */
+  met(): ('body' | 'background' | 'foreground')[];
   hash(): string;
 }

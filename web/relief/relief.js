@@ -61,28 +61,32 @@ function sizeOf(shape, size) {
   return shape === 'box' ? { size: [x, y, z] } : { radius: x, height: y };
 }
 
+/** The module, compiled. `wasm`: as load has it. */
+export async function compileRelief(wasm) {
+  let source = await wasm ?? new URL('relief.wasm', import.meta.url);
+  if (source instanceof WebAssembly.Module) return source;
+  if (source instanceof URL || typeof source === 'string') {
+    const url = new URL(source, import.meta.url);
+    if (url.protocol === 'file:' && typeof process !== 'undefined') {
+      const { readFile } = await import('node:fs/promises');
+      source = await readFile(url);
+    } else {
+      source = await fetch(url);
+    }
+  }
+  if (typeof Response === 'undefined' || !(source instanceof Response)) return WebAssembly.compile(source);
+  if (!source.ok) throw new Error(`${source.url}: ${source.status} ${source.statusText}`);
+  const isTyped = source.headers.get('content-type') === 'application/wasm'; // what compiling while it comes asks for
+  return isTyped ? WebAssembly.compileStreaming(source) : WebAssembly.compile(await source.arrayBuffer());
+}
+
 export class Relief {
   #e;
 
   /** Loads the module. `wasm`: a URL, a Response, bytes or a WebAssembly.Module. */
-  static async load(wasm = new URL('relief.wasm', import.meta.url)) {
-    let source = await wasm;
-    if (source instanceof URL || typeof source === 'string') {
-      const url = new URL(source, import.meta.url);
-      if (url.protocol === 'file:' && typeof process !== 'undefined') {
-        const { readFile } = await import('node:fs/promises');
-        source = await readFile(url);
-      } else {
-        source = await fetch(url);
-      }
-    }
-    if (typeof Response !== 'undefined' && source instanceof Response) {
-      if (!source.ok) throw new Error(`${source.url}: ${source.status} ${source.statusText}`);
-      source = await source.arrayBuffer();
-    }
-    const made = await WebAssembly.instantiate(source, {});
+  static async load(wasm) {
     const relief = new Relief();
-    relief.#e = (made.instance ?? made).exports;
+    relief.#e = (await WebAssembly.instantiate(await compileRelief(wasm), {})).exports;
     relief.#e._initialize?.();
     return relief;
   }
@@ -214,15 +218,18 @@ export class Relief {
     });
   }
 
+  /** What bodies met in the last frame, each once: 'body', 'background', 'foreground'. */
+  met() { return [...new Set(this.contacts().map(({ other }) => other))]; }
+
   /** 16 hexadecimal digits: the same as `relief run --hash` prints for the same frames. */
   hash() { return BigInt.asUintN(64, this.#e.relief_hash()).toString(16).padStart(16, '0'); }
 
-  #options({ profile = 'live', bodies, draws = true, matchLight = false, end = 'stop' }, usual) {
+  #options({ profile = 'live', bodies, draws = true, matchLight = false, opensSoon = false, end = 'stop' }, usual) {
     const chosen = bodies ?? usual;
     if (typeof chosen === 'object') this.#writeScene(chosen);
     const scene = typeof chosen === 'object' ? 2 : indexOf(['none', 'two-cubes'], chosen, 'bodies');
     return { profile: indexOf(['live', 'thesis'], profile, 'profile'), scene,
-      flags: (draws ? 1 : 0) | (matchLight ? 2 : 0), end: indexOf(ENDS, end, 'end') };
+      flags: (draws ? 1 : 0) | (matchLight ? 2 : 0) | (opensSoon ? 4 : 0), end: indexOf(ENDS, end, 'end') };
   }
 
   #write(text) {

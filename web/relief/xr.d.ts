@@ -1,5 +1,6 @@
 // WebXR's own types are those of @types/webxr, where a page has them.
 import type { Body, BodyOptions, Relief } from './relief.js';
+import type { RemoteRelief } from './remote.js';
 
 export type DepthFormat = 'luminance-alpha' | 'unsigned-short' | 'float32';
 export type BodyId = [number, number];
@@ -49,6 +50,8 @@ export class SeeThrough {
   hand(which: 0 | 1, bones: Float32Array | null): void;
   /** True while the hand holds a body. null: it does not pinch. */
   pinch(which: 0 | 1, position: ArrayLike<number> | null, quaternion?: ArrayLike<number>): boolean;
+  /** m/s^2; y is up. */
+  setGravity(x: number, y: number, z: number): void;
   addBox(size: [number, number, number], position: number[], quaternion: number[]): number;
   addHull(corners: number[], triangles: number[], position: number[], quaternion: number[]): number;
   removeStatic(handle: number): void;
@@ -75,7 +78,8 @@ export interface ArOptions {
 }
 
 export interface ArSession {
-  readonly see: SeeThrough;
+  /** Of a RemoteRelief: what it returns is what the core said last. */
+  readonly see: Pick<SeeThrough, 'isOpen' | 'bodies' | 'addBody' | 'place' | 'remove' | 'setGravity' | 'hand' | 'pinch'>;
   /** Milliseconds of the core's last frame. */
   readonly coreMs: number;
   /** Resolves to words when the session is over. */
@@ -86,4 +90,4 @@ export interface ArSession {
 
 export function arSupport(xr?: unknown): Promise<{ isOffered: boolean; why: string }>;
 /** Call it from a press of a button; a function loads the module once the session is there. */
-export function enterAr(relief: Relief | (() => Promise<Relief>), options?: ArOptions): Promise<ArSession>;
+export function enterAr(relief: Relief | RemoteRelief | (() => Promise<Relief | RemoteRelief>), options?: ArOptions): Promise<ArSession>;

@@ -1,8 +1,9 @@
 // A see-through session: a headset's or a phone's depth into Relief, its bodies into both eyes.
-import { CameraChanged, SeeThrough } from './xr_core.js';
+import { SeeThrough } from './xr_core.js';
 import { DepthReader } from './xr_depth.js';
 import { BodyDrawer } from './xr_draw.js';
 import { Hands } from './xr_hands.js';
+import { RemoteSee } from './xr_remote.js';
 import { Anchors, DetectedRoom } from './xr_room.js';
 
 const PIXELS = 40000;      // of depth that the core takes of a frame: 320 x 320 gives every second one
@@ -39,8 +40,8 @@ function sessionInit({ usage, formats, matchDepthView }) {
   };
 }
 
-/** Starts a session; call it from a press of a button. `relief`: a module, or a function that loads one: a browser forgets
- * the press while it loads, so the session is asked for first. An error in words where it cannot be had. */
+/** Starts a session; call it from a press of a button. `relief`: a Relief or a RemoteRelief, or a function that loads one: a
+ * browser forgets the press while it loads, so the session is asked for first. An error in words where it cannot be had. */
 export async function enterAr(relief, options = {}) {
   const { xr = navigator.xr, tell = () => {}, depth = {} } = options;
   const init = sessionInit({ usage: ['cpu-optimized', 'gpu-optimized'], formats: FORMATS, matchDepthView: true, ...depth });
@@ -74,7 +75,7 @@ export class ArSession {
     if (!this.context) throw new Error('AR needs WebGL 2');
     Object.assign(this, { relief, session, onFrame, every, gravity, clock, makeLayer: layer, makeBinding: binding });
     this.say = tell;
-    this.see = new SeeThrough(relief);
+    this.see = relief.isElsewhere ? new RemoteSee(relief) : new SeeThrough(relief.local ?? relief);
     this.ended = new Promise((resolve) => { this.resolveEnded = resolve; });
   }
 
@@ -158,25 +159,31 @@ export class ArSession {
     const every = this.every === 'auto' ? Math.ceil(Math.sqrt((buffer.width * buffer.height) / PIXELS)) : this.every;
     const whole = { ...buffer, head, timeMs, every };
     try {
-      if (!this.see.isOpen) this.#open(whole);
+      if (!this.see.isOpen || this.isCameraNew) this.#open(whole);
       this.#touch(frame, head);
-      const start = performance.now();
-      const isNew = this.see.push(whole);
-      this.coreMs = performance.now() - start;
-      this.#pushedMs = isNew ? timeMs : this.#pushedMs;
-      const isOld = !isNew && timeMs - this.#pushedMs > SILENT_MS;
-      this.#tell('old', isOld ? 'the device repeats its last depth: bodies wait' : '');
-      this.#tell('core', '');
+      this.see.send(whole, (said) => this.#take(said, timeMs));
     } catch (error) {
       this.#tell('core', error.message);
-      if (error instanceof CameraChanged) this.#open(whole);
     }
+  }
+
+  /** What the core says of a frame: at once, or later where it has a thread of its own. */
+  #take({ isNew, troubles, ms }, timeMs) {
+    if (this.#isOver) return;
+    this.coreMs = ms;
+    this.#pushedMs = isNew ? timeMs : this.#pushedMs;
+    const isOld = isNew === false && timeMs - this.#pushedMs > SILENT_MS;
+    this.#tell('old', isOld ? 'the device repeats its last depth: bodies wait' : '');
+    const [trouble] = troubles;
+    this.#tell('core', trouble?.[2] ?? '');
+    this.isCameraNew = troubles.some(([, name]) => name === 'CameraChanged');
   }
 
   #open(buffer) {
     this.see.open(buffer);
+    this.isCameraNew = false;
     this.room.forget();
-    if (this.gravity) this.relief.setGravity(...this.gravity);
+    if (this.gravity) this.see.setGravity(...this.gravity);
   }
 
   /** What touches bodies beside the depth moves first. Each by itself: depth goes on without any of them. */

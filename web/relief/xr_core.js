@@ -26,7 +26,9 @@ export function middleOf(corners) {
 }
 
 /** The depth camera is another one than the room was opened for. */
-export class CameraChanged extends Error {}
+export class CameraChanged extends Error {
+  get name() { return 'CameraChanged'; }
+}
 
 export class SeeThrough {
   #relief;
@@ -70,6 +72,21 @@ export class SeeThrough {
     this.#check(result);
     return true;
   }
+
+  /** As push, for who also knows RemoteSee: `done({isNew, troubles, ms})`. */
+  send(buffer, done) {
+    const start = performance.now();
+    let isNew, troubles = [];
+    try {
+      isNew = this.push(buffer);
+    } catch (error) {
+      troubles = [['push', error.name, error.message]];
+    }
+    done({ isNew, troubles, ms: performance.now() - start });
+  }
+
+  /** m/s^2; y is up. */
+  setGravity(x, y, z) { this.#relief.setGravity(x, y, z); }
 
   /** Pose of the newest frame's camera: x right, y down, z ahead, turned as the buffer is. */
   camera() {
