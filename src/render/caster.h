@@ -21,7 +21,6 @@
 
 enum {
     CASTER_BODIES = 3, /* most bodies that shade another one */
-    CASTER_BLOCK = 2,  /* pixels on a side that share the light of a real surface */
     CASTER_LANES = 16  /* points that are worked on at once */
 };
 

@@ -59,12 +59,6 @@ typedef struct gl_bodies {
     shape_vertex *hull_vertices; /* a batch on its way to hull_buffer */
 } gl_bodies;
 
-/* The real world of soft occlusion: see environment/edge_matte.h. */
-typedef struct gl_soft_real {
-    const gl_texture *near_z, *far_z, *cover;
-    const rlf_depth_noise *noise;
-} gl_soft_real;
-
 /* What all bodies of a picture share. */
 typedef struct gl_bodies_pass {
     const gl_view *view;

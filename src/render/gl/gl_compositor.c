@@ -263,11 +263,19 @@ static bool has_edges(const gl_compositor *c, const rlf_render_input *input)
     return has_bodies(input) && c->def.occlusion == RLF_OCCLUSION_SOFT;
 }
 
+/* Unit, picture camera frame. */
+static rlf_vec3 to_light_of(const gl_compositor *c)
+{
+    return rlf_neg(rlf_rotate(c->view.T_picture_camera.q, c->direction.now));
+}
+
 static rlf_result update_real_depth(gl_compositor *c, const rlf_render_input *input)
 {
     edge_matte *s = has_edges(c, input) ? &c->edges : NULL;
     if (s != NULL) {
-        render_place_bodies(s, &c->view.camera, &c->view.T_picture_world, input->snapshot);
+        const render_casters casters = {c->casters, input->snapshot->body_count, to_light_of(c)};
+        render_place_bodies(s, &c->view.camera, &c->view.T_picture_world, input->snapshot,
+                            &casters);
     }
     const real_windows all = {{{0, 0, c->real.z.width, c->real.z.height}}, 1};
     const observation now = render_observation(input);
@@ -292,7 +300,7 @@ static void update_edges(gl_compositor *c, const rlf_render_input *input)
     gl_texture_upload_u8(&c->cover_texture, s->cover.data, width, height);
 }
 
-static rlf_result place_casters(gl_compositor *c, const rlf_snapshot *snapshot, rlf_vec3 to_light)
+static rlf_result place_casters(gl_compositor *c, const rlf_snapshot *snapshot)
 {
     if (snapshot->body_count > c->caster_capacity) {
         rlf_free(c->casters);
@@ -304,7 +312,8 @@ static rlf_result place_casters(gl_compositor *c, const rlf_snapshot *snapshot, 
         }
     }
     for (int32_t i = 0; i < snapshot->body_count; i++) {
-        (void)caster_make(&snapshot->bodies[i], &c->view.T_picture_world, to_light, &c->casters[i]);
+        (void)caster_make(&snapshot->bodies[i], &c->view.T_picture_world, to_light_of(c),
+                          &c->casters[i]);
     }
     return RLF_OK;
 }
@@ -335,13 +344,23 @@ static bool has_real_ambient(const gl_compositor *c)
     return c->def.enable_real_ambient && has_shadows(c);
 }
 
+static gl_soft_real soft_real(const gl_compositor *c)
+{
+    return (gl_soft_real){&c->near_texture, &c->far_texture, &c->cover_texture,
+                          &c->def.rig.noise};
+}
+
 /* The colour image, or depth in grey when the frame has none, and the bodies' shadows. */
 static rlf_result draw_backdrop(gl_compositor *c, const rlf_render_input *input)
 {
     rlf_result result = RLF_OK;
     const rlf_rig *rig = &c->def.rig;
     bool has_color = input->frame->color.data != NULL;
-    if (!has_color || has_bodies(input)) {
+    const bool is_shadowed = has_bodies(input) && has_shadows(c);
+    if (is_shadowed) {
+        result = place_casters(c, input->snapshot);
+    }
+    if (result == RLF_OK && (!has_color || has_bodies(input))) {
         result = update_real_depth(c, input);
     }
     if (result != RLF_OK) {
@@ -358,16 +377,16 @@ static rlf_result draw_backdrop(gl_compositor *c, const rlf_render_input *input)
     if (has_edges(c, input)) {
         update_edges(c, input);
     }
-    if (has_bodies(input) && has_shadows(c)) {
-        rlf_vec3 light = rlf_rotate(c->view.T_picture_camera.q, c->direction.now);
-        gl_backdrop_shadows shadows = {&c->view, &c->depth_texture, rlf_neg(light), NULL,
-                                       input->snapshot->body_count};
-        result = place_casters(c, input->snapshot, shadows.to_light);
-        shadows.casters = c->casters;
-        if (result == RLF_OK) {
-            gl_backdrop_draw_shadows(&c->backdrop, &shadows);
-        }
-        if (result == RLF_OK && has_real_shade(c)) {
+    if (is_shadowed) {
+        const gl_soft_real sides = soft_real(c);
+        const gl_backdrop_shadows shadows = {&c->view,
+                                             &c->depth_texture,
+                                             has_edges(c, input) ? &sides : NULL,
+                                             to_light_of(c),
+                                             c->casters,
+                                             input->snapshot->body_count};
+        gl_backdrop_draw_shadows(&c->backdrop, &shadows);
+        if (has_real_shade(c)) {
             result = update_shade(c, input, shadows.to_light);
         }
         if (result == RLF_OK && has_real_ambient(c)) {
@@ -389,14 +408,13 @@ static bool is_drawable(const rlf_body_state *body)
 static void draw_bodies(gl_compositor *c, const rlf_snapshot *snapshot)
 {
     rlf_occlusion occlusion = c->def.occlusion;
-    gl_soft_real soft_real = {&c->near_texture, &c->far_texture, &c->cover_texture,
-                              &c->def.rig.noise};
+    const gl_soft_real sides = soft_real(c);
     gl_bodies_pass pass = {&c->view,
                            c->lamp.color,
                            c->direction.now,
                            &c->backdrop.texture,
                            occlusion == RLF_OCCLUSION_DEPTH ? &c->depth_texture : NULL,
-                           occlusion == RLF_OCCLUSION_SOFT ? &soft_real : NULL,
+                           occlusion == RLF_OCCLUSION_SOFT ? &sides : NULL,
                            has_shadows(c) ? c->casters : NULL,
                            has_real_shade(c) ? &c->shade : NULL,
                            has_real_ambient(c) ? &c->near_by : NULL};

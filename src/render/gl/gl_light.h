@@ -148,6 +148,12 @@ void gl_shade_set(const gl_shade_uniforms *uniforms, const gl_shade *shade, int3
     "    return 1.0 - hidden / 6.0;\n"                                                             \
     "}\n"
 
+/* The real world of soft occlusion: see environment/edge_matte.h. */
+typedef struct gl_soft_real {
+    const gl_texture *near_z, *far_z, *cover;
+    const rlf_depth_noise *noise;
+} gl_soft_real;
+
 /* GLSL: `float share_of_soft(near_z, far_z, cover, noise, z)`: as soft occlusion in soft/soft.h. A
  * pixel shows `cover` of near_z and the rest of far_z. */
 #define GL_SOFT_OCCLUSION_GLSL                                                                     \

@@ -191,7 +191,8 @@ static void place_bodies(soft *s, const rlf_render_input *input)
 {
     rlf_pose T_camera_world = rlf_pose_invert(&input->T_world_camera);
     rlf_pose T_picture_world = rlf_pose_mul(&s->T_picture_depth, &T_camera_world);
-    render_place_bodies(&s->edges, &s->camera, &T_picture_world, input->snapshot);
+    const render_casters casters = {s->scene.casters, s->scene.caster_count, s->to_light};
+    render_place_bodies(&s->edges, &s->camera, &T_picture_world, input->snapshot, &casters);
 }
 
 static void draw_background_rows(void *context, int32_t begin, int32_t end, int32_t worker)

@@ -192,15 +192,17 @@ typedef struct soft_fit {
 } soft_fit;
 
 #define SOFT_SHADE_WIDTH 32 /* pixels of a tile; it is as high as a band */
-#define SOFT_SHADE_SAMPLES ((SOFT_SHADE_WIDTH / CASTER_BLOCK) * (SOFT_BAND_ROWS / CASTER_BLOCK))
+#define SOFT_SHADE_SAMPLES (SOFT_SHADE_WIDTH * SOFT_BAND_ROWS)
 
 /* A tile of the real world while bodies take light from it. */
 typedef struct soft_shade_tile {
     float x[SOFT_SHADE_SAMPLES], y[SOFT_SHADE_SAMPLES], z[SOFT_SHADE_SAMPLES]; /* caster_points */
     float light[SOFT_SHADE_SAMPLES]; /* share that is left */
+    /* Where the matte of an edge is, that was of what is farther, and this is what is nearer. */
+    float near_z[SOFT_SHADE_SAMPLES], near_light[SOFT_SHADE_SAMPLES];
     int32_t step;                    /* pixels from one sample to the next */
     int32_t columns, rows, count;    /* of samples; count: in whole lanes */
-    bool has_depth, is_known, is_shaded;
+    bool has_depth, has_edge, is_known, is_shaded;
 } soft_shade_tile;
 
 typedef struct soft {
