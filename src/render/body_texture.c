@@ -13,6 +13,12 @@ body_texture_kind body_texture_kind_of(rlf_shape_type type)
     return BODY_TEXTURE_STRIPE;
 }
 
+probe_material body_material_of(rlf_shape_type type)
+{
+    const float roughness = type == RLF_SHAPE_BOX || type == RLF_SHAPE_HULL ? 0.6f : 0.35f;
+    return (probe_material){0.0f, roughness};
+}
+
 /* Noise 0..15 that is drawn out along x like wood grain. */
 static int32_t wood_grain(int32_t x, int32_t y)
 {

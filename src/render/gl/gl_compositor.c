@@ -29,6 +29,7 @@ typedef struct gl_compositor {
     int32_t caster_capacity;
     gl_shade shade;        /* of what real things take */
     gl_obscurance near_by; /* of the light around */
+    gl_probes probes;
     rlf_image_rgba8 image; /* read back */
     rlf_plane_u8 matte;
 
@@ -57,6 +58,7 @@ static void destroy_gl(gl_compositor *c)
     gl_texture_destroy(&c->far_texture);
     gl_texture_destroy(&c->cover_texture);
     gl_shade_destroy(&c->shade);
+    gl_probes_destroy(&c->probes);
     gl_thesis_destroy(&c->thesis);
     gl_layers_destroy(&c->layers);
     gl_bodies_destroy(&c->bodies);
@@ -162,7 +164,8 @@ static rlf_result create_gl(gl_compositor *c)
     c->far_texture = gl_texture_create(GL_NEAREST);
     c->cover_texture = gl_texture_create(GL_NEAREST);
     c->shade = gl_shade_create();
-    return check_errors(&c->context);
+    result = gl_probes_create(&c->probes);
+    return result == RLF_OK ? check_errors(&c->context) : result;
 }
 
 static rlf_result render(void *self, const rlf_render_input *input, rlf_render_output *out);
@@ -410,7 +413,7 @@ static void draw_bodies(gl_compositor *c, const rlf_snapshot *snapshot)
     rlf_occlusion occlusion = c->def.occlusion;
     const gl_soft_real sides = soft_real(c);
     gl_bodies_pass pass = {&c->view,
-                           c->lamp.color,
+                           &c->probes,
                            c->direction.now,
                            &c->backdrop.texture,
                            occlusion == RLF_OCCLUSION_DEPTH ? &c->depth_texture : NULL,
@@ -457,6 +460,17 @@ static rlf_result draw_wireframe(gl_compositor *c, const rlf_surface *surface)
     return RLF_OK;
 }
 
+static rlf_result update_probes(gl_compositor *c, const rlf_render_input *input)
+{
+    const probe_def def = {.rig = &c->def.rig,
+                           .lamp = c->lamp.color,
+                           .T_picture_depth = c->view.T_picture_camera,
+                           .T_picture_world = c->view.T_picture_world,
+                           .pool = c->def.pool,
+                           .is_on = has_real_ambient(c)};
+    return gl_probes_update(&c->probes, &def, input);
+}
+
 /* Nothing that another user of a window's context left on may change the picture. */
 static void reset_state(void)
 {
@@ -491,7 +505,10 @@ static rlf_result draw(gl_compositor *c, const rlf_render_input *input)
     if (input->view == RLF_VIEW_MESH) {
         result = draw_wireframe(c, input->surface);
     } else if (has_bodies(input)) {
-        draw_bodies(c, input->snapshot);
+        result = update_probes(c, input);
+        if (result == RLF_OK) {
+            draw_bodies(c, input->snapshot);
+        }
     }
     gl_target_read(&c->target, &c->image);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);

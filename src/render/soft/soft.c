@@ -35,12 +35,16 @@ static void destroy(void *self)
     for (int32_t i = 0; s->shade_tiles != NULL && i < s->worker_count; i++) {
         rlf_free(s->shade_tiles[i]);
     }
-    void *parts[15] = {s->workers,           s->image.data,        s->matte.data,
+    if (s->probes != NULL) {
+        probe_set_destroy(s->probes);
+    }
+    void *parts[16] = {s->workers,           s->image.data,        s->matte.data,
                        s->scene.faces,       s->scene.bodies,      s->corners,
                        s->column_left,       s->column_weight,     s->grid_image.data,
                        s->shade_tiles,       s->scene.casters,     s->scene.reach,
-                       s->scene.real_shades, s->scene.obscurances, s->scene.skins};
-    for (int i = 0; i < 15; i++) {
+                       s->scene.real_shades, s->scene.obscurances, s->scene.skins,
+                       s->probes};
+    for (int i = 0; i < 16; i++) {
         rlf_free(parts[i]);
     }
     rlf_free(s);
@@ -136,16 +140,18 @@ static rlf_result allocate(soft *s)
     s->scene.reach = rlf_alloc_array(BODIES_AT_START, sizeof(*s->scene.reach));
     s->scene.real_shades = rlf_alloc_array(BODIES_AT_START, sizeof(*s->scene.real_shades));
     s->scene.obscurances = rlf_alloc_array(BODIES_AT_START, sizeof(*s->scene.obscurances));
+    s->probes = rlf_alloc(sizeof(*s->probes));
     s->corners = rlf_alloc_array(SHAPE_MESH_VERTEX_MAX, sizeof(*s->corners));
     s->corner_capacity = SHAPE_MESH_VERTEX_MAX;
     s->column_left = rlf_alloc_array((size_t)width, sizeof(*s->column_left));
     s->column_weight = rlf_alloc_array((size_t)width, sizeof(*s->column_weight));
     if (result != RLF_OK || s->matte.data == NULL || s->scene.bodies == NULL ||
         s->scene.casters == NULL || s->scene.reach == NULL || s->scene.real_shades == NULL ||
-        s->scene.obscurances == NULL || s->corners == NULL || s->column_left == NULL ||
+        s->scene.obscurances == NULL || s->corners == NULL || s->probes == NULL || s->column_left == NULL ||
         s->column_weight == NULL) {
         return RLF_ERROR_MEMORY;
     }
+    probe_set_init(s->probes);
     return RLF_OK;
 }
 
@@ -216,8 +222,10 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
         const real_windows needed = soft_needed_depth(s, input);
         const observation now = render_observation(input);
         real_depth_read(&s->real, &now);
-        soft_scene_light(s, input);
-        result = real_depth_update(&s->real, &now, has_edges ? &s->edges : NULL, &needed);
+        result = soft_scene_light(s, input);
+        if (result == RLF_OK) {
+            result = real_depth_update(&s->real, &now, has_edges ? &s->edges : NULL, &needed);
+        }
     }
     if (result != RLF_OK) {
         return result;
