@@ -283,6 +283,25 @@ static void place_real_shades(soft *s, const rlf_surface *surface)
     }
 }
 
+/* Light by place, for the bodies in the picture. */
+static rlf_result place_probes(soft *s, const rlf_render_input *input)
+{
+    const rlf_pose T_camera_world = rlf_pose_invert(&input->T_world_camera);
+    const probe_def def = {.rig = &s->def.rig,
+                           .lamp = s->lamp.color,
+                           .T_picture_depth = s->T_picture_depth,
+                           .T_picture_world = rlf_pose_mul(&s->T_picture_depth, &T_camera_world),
+                           .pool = s->def.pool,
+                           .is_on = s->def.enable_real_ambient && s->scene.caster_count > 0};
+    const rlf_result result =
+        probe_set_update(s->probes, &def, input->frame, input->surface, input->snapshot);
+    for (int32_t i = 0; i < s->scene.body_count && result == RLF_OK; i++) {
+        soft_body *body = &s->scene.bodies[i];
+        body->probe = &s->probes->probes[s->probes->of[body->index]];
+    }
+    return result;
+}
+
 rlf_result soft_scene_build(soft *s, const rlf_render_input *input)
 {
     const rlf_snapshot *snapshot = input->snapshot;
@@ -303,36 +322,15 @@ rlf_result soft_scene_build(soft *s, const rlf_render_input *input)
         sort_bodies(&s->scene);
         place_casters(s, snapshot, &T_picture_world);
     }
-    return result;
+    return result == RLF_OK && s->scene.body_count > 0 ? place_probes(s, input) : result;
 }
 
-/* Light by place, for the bodies in the picture. */
-static rlf_result place_probes(soft *s, const rlf_render_input *input)
+void soft_scene_light(soft *s, const rlf_render_input *input)
 {
-    const rlf_pose T_camera_world = rlf_pose_invert(&input->T_world_camera);
-    const probe_def def = {.rig = &s->def.rig,
-                           .lamp = s->lamp.color,
-                           .T_picture_depth = s->T_picture_depth,
-                           .T_picture_world = rlf_pose_mul(&s->T_picture_depth, &T_camera_world),
-                           .pool = s->def.pool,
-                           .is_on = s->def.enable_real_ambient && s->scene.caster_count > 0};
-    const rlf_result result =
-        probe_set_update(s->probes, &def, input->frame, input->surface, input->snapshot);
-    for (int32_t i = 0; i < s->scene.body_count && result == RLF_OK; i++) {
-        soft_body *body = &s->scene.bodies[i];
-        body->probe = &s->probes->probes[s->probes->of[body->index]];
+    if (s->scene.body_count > 0) {
+        place_real_shades(s, input->surface);
+        soft_place_obscurances(s, input);
     }
-    return result;
-}
-
-rlf_result soft_scene_light(soft *s, const rlf_render_input *input)
-{
-    if (s->scene.body_count == 0) {
-        return RLF_OK;
-    }
-    place_real_shades(s, input->surface);
-    soft_place_obscurances(s, input);
-    return place_probes(s, input);
 }
 
 void soft_set_viewpoint(soft *s, const rlf_camera *camera, const rlf_pose *T_picture_depth)

@@ -222,10 +222,8 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
         const real_windows needed = soft_needed_depth(s, input);
         const observation now = render_observation(input);
         real_depth_read(&s->real, &now);
-        result = soft_scene_light(s, input);
-        if (result == RLF_OK) {
-            result = real_depth_update(&s->real, &now, has_edges ? &s->edges : NULL, &needed);
-        }
+        soft_scene_light(s, input);
+        result = real_depth_update(&s->real, &now, has_edges ? &s->edges : NULL, &needed);
     }
     if (result != RLF_OK) {
         return result;
