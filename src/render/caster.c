@@ -362,6 +362,7 @@ RLF_KERNEL_PART void take_direct(const caster caster_here, const float *restrict
     const float ly = c.to_light[1];
     const float lz = c.to_light[2];
     const float per_length = 1.0f / c.length_m;
+    const float per_penumbra = 1.0f / c.penumbra;
     RLF_KERNEL_WHOLE
     for (int32_t i = 0; i < CASTER_LANES; i++) {
         site s = site_at(&c, ray_x[i], ray_y[i], z[i]);
@@ -383,7 +384,7 @@ RLF_KERNEL_PART void take_direct(const caster caster_here, const float *restrict
         float hidden = limit(0.5f + (c.round - pass) / width, 0.0f, 1.0f);
         float fade = 1.0f - t * per_length;
         fade = fade > 0.0f ? fade : 0.0f;
-        hidden = t > 0.0f ? hidden * fade : 0.0f;
+        hidden *= fade * limit(t * per_penumbra, 0.0f, 1.0f); /* none before the body */
         left[i] *= 1.0f - share * hidden * facing_of(&s, z[i]);
     }
 }

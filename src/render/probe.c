@@ -7,7 +7,7 @@
 
 #define FOUR_PI 12.566371f
 #define LEAST_PATCHES 64   /* fewer say nothing about a room */
-#define MIRRORED 0.05f     /* weight of what is seen for what is behind the camera */
+#define MIRRORED 0.3f      /* weight of what is seen for what is behind the camera */
 #define NEAR_M2 0.3f       /* light of places so far (squared) tells how light a place is */
 #define DARKEST 0.2f       /* share of the lamp that the darkest place gets */
 #define DARKEST_MEAN 0.002f /* of a picture that is not black */
@@ -164,7 +164,7 @@ static void push(const float mean[3], radiance *r)
     int32_t above = ALL_LEVELS;
     int32_t at = ALL_LEVELS - 1;
     for (int32_t side = 1; side <= PROBE_SIDE; side *= 2) {
-        const float doubt = 0.25f * FOUR_PI / (float)(side * side);
+        const float doubt = 0.1f * FOUR_PI / (float)(side * side);
         for (int32_t i = 0; i < side * side; i++) {
             const int32_t parent = above + i / side / 2 * (side / 2) + i % side / 2;
             const float *guess = side > 1 ? r->light[parent] : mean;

@@ -30,6 +30,7 @@ typedef struct gl_compositor {
     gl_shade shade;        /* of what real things take */
     gl_obscurance near_by; /* of the light around */
     gl_probes probes;
+    gl_grain noise;
     rlf_image_rgba8 image; /* read back */
     rlf_plane_u8 matte;
 
@@ -59,6 +60,7 @@ static void destroy_gl(gl_compositor *c)
     gl_texture_destroy(&c->cover_texture);
     gl_shade_destroy(&c->shade);
     gl_probes_destroy(&c->probes);
+    gl_grain_destroy(&c->noise);
     gl_thesis_destroy(&c->thesis);
     gl_layers_destroy(&c->layers);
     gl_bodies_destroy(&c->bodies);
@@ -165,6 +167,9 @@ static rlf_result create_gl(gl_compositor *c)
     c->cover_texture = gl_texture_create(GL_NEAREST);
     c->shade = gl_shade_create();
     result = gl_probes_create(&c->probes);
+    if (result == RLF_OK) {
+        result = gl_grain_create(&c->noise);
+    }
     return result == RLF_OK ? check_errors(&c->context) : result;
 }
 
@@ -414,6 +419,7 @@ static void draw_bodies(gl_compositor *c, const rlf_snapshot *snapshot)
     const gl_soft_real sides = soft_real(c);
     gl_bodies_pass pass = {&c->view,
                            &c->probes,
+                           &c->noise,
                            c->direction.now,
                            &c->backdrop.texture,
                            occlusion == RLF_OCCLUSION_DEPTH ? &c->depth_texture : NULL,
@@ -505,6 +511,7 @@ static rlf_result draw(gl_compositor *c, const rlf_render_input *input)
     if (input->view == RLF_VIEW_MESH) {
         result = draw_wireframe(c, input->surface);
     } else if (has_bodies(input)) {
+        gl_grain_update(&c->noise, input->frame);
         result = update_probes(c, input);
         if (result == RLF_OK) {
             draw_bodies(c, input->snapshot);

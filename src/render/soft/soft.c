@@ -38,13 +38,13 @@ static void destroy(void *self)
     if (s->probes != NULL) {
         probe_set_destroy(s->probes);
     }
-    void *parts[16] = {s->workers,           s->image.data,        s->matte.data,
+    void *parts[17] = {s->workers,           s->image.data,        s->matte.data,
                        s->scene.faces,       s->scene.bodies,      s->corners,
                        s->column_left,       s->column_weight,     s->grid_image.data,
                        s->shade_tiles,       s->scene.casters,     s->scene.reach,
                        s->scene.real_shades, s->scene.obscurances, s->scene.skins,
-                       s->probes};
-    for (int i = 0; i < 16; i++) {
+                       s->probes,            s->grain};
+    for (int i = 0; i < 17; i++) {
         rlf_free(parts[i]);
     }
     rlf_free(s);
@@ -141,17 +141,19 @@ static rlf_result allocate(soft *s)
     s->scene.real_shades = rlf_alloc_array(BODIES_AT_START, sizeof(*s->scene.real_shades));
     s->scene.obscurances = rlf_alloc_array(BODIES_AT_START, sizeof(*s->scene.obscurances));
     s->probes = rlf_alloc(sizeof(*s->probes));
+    s->grain = rlf_alloc(sizeof(*s->grain));
     s->corners = rlf_alloc_array(SHAPE_MESH_VERTEX_MAX, sizeof(*s->corners));
     s->corner_capacity = SHAPE_MESH_VERTEX_MAX;
     s->column_left = rlf_alloc_array((size_t)width, sizeof(*s->column_left));
     s->column_weight = rlf_alloc_array((size_t)width, sizeof(*s->column_weight));
     if (result != RLF_OK || s->matte.data == NULL || s->scene.bodies == NULL ||
         s->scene.casters == NULL || s->scene.reach == NULL || s->scene.real_shades == NULL ||
-        s->scene.obscurances == NULL || s->corners == NULL || s->probes == NULL || s->column_left == NULL ||
+        s->scene.obscurances == NULL || s->corners == NULL || s->probes == NULL || s->grain == NULL || s->column_left == NULL ||
         s->column_weight == NULL) {
         return RLF_ERROR_MEMORY;
     }
     probe_set_init(s->probes);
+    grain_init(s->grain);
     return RLF_OK;
 }
 
@@ -229,6 +231,7 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
         return result;
     }
     soft_set_background(s, &input->frame->color);
+    grain_update(s->grain, input->frame);
     if (has_edges && s->real.has_moved) {
         edge_matte_forget(&s->edges);
     }
@@ -236,7 +239,9 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
         edge_matte_update(&s->edges, &s->real.z, real_depth_known(&s->real), input->frame);
     }
     if (has_bodies) {
+        s->has_grain = true;
         soft_draw_bodies(s, true);
+        s->has_grain = false;
     } else {
         rlf_parallel_for(s->def.pool, s->image.height, SOFT_BAND_ROWS, draw_background_rows, s);
     }
