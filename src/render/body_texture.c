@@ -38,7 +38,8 @@ static int32_t wood_grain(int32_t x, int32_t y)
     const int32_t year = bent / 40;
     const int32_t rest = bent % 40;
     const int32_t years = (noise_at(year, 3) * (40 - rest) + noise_at(year + 1, 3) * rest) / 40;
-    const int32_t fibre = (noise_at(x / 16, y) * (16 - x % 16) + noise_at(x / 16 + 1, y) * (x % 16)) / 16;
+    const int32_t fibre =
+        (noise_at(x / 16, y) * (16 - x % 16) + noise_at(x / 16 + 1, y) * (x % 16)) / 16;
     return 3 * years + fibre;
 }
 
@@ -74,7 +75,8 @@ static int32_t crate_brightness(int32_t x, int32_t y)
     const int32_t plank = (y - frame) / 25;
     const int32_t in_plank = (y - frame) % 25;
     const int32_t side = in_plank < 24 - in_plank ? in_plank : 24 - in_plank;
-    const int32_t board = board_brightness(192 + 7 * (plank % 2), side, wood_grain(x + 370 * plank, y));
+    const int32_t board =
+        board_brightness(192 + 7 * (plank % 2), side, wood_grain(x + 370 * plank, y));
     return board - (shade > below ? shade : below);
 }
 

@@ -4,11 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-#define NEWEST 0.15f     /* share of a picture in what is known */
+#define NEWEST 0.15f      /* share of a picture in what is known */
 #define FIRST_LIMIT 24.0f /* codes: what differs by more has moved */
-#define STILL_SHARE 0.6f /* of the spots: of fewer the camera moves */
-#define LEAST_SPOTS 24   /* of a brightness */
-#define MOST_BESIDE 0.6f /* a blur of three pixels has no more */
+#define STILL_SHARE 0.6f  /* of the spots: of fewer the camera moves */
+#define LEAST_SPOTS 24    /* of a brightness */
+#define MOST_BESIDE 0.6f  /* a blur of three pixels has no more */
 #define STEPS 32.0f
 
 static uint32_t hash_of(uint32_t x)
@@ -27,8 +27,9 @@ void grain_init(grain *g)
     for (uint32_t i = 0; i < GRAIN_TILE * GRAIN_TILE; i++) {
         for (uint32_t k = 0; k < 4; k++) {
             const uint32_t h = hash_of(4 * i + k + 1);
-            const int32_t sum = (int32_t)((h & 255u) + (h >> 8 & 255u) + (h >> 16 & 255u) +
-                                          (h >> 24)) - 510; /* of four even ones: nearly normal */
+            const int32_t sum =
+                (int32_t)((h & 255u) + (h >> 8 & 255u) + (h >> 16 & 255u) + (h >> 24)) -
+                510; /* of four even ones: nearly normal */
             g->white[i][k] = (float)sum * (1.0f / 147.8f);
         }
     }
@@ -59,7 +60,9 @@ static float limit_of(const grain *g, int32_t bin, int k)
 static void add_spot(const grain *g, const uint8_t last[9], const uint8_t now[9], sums *out)
 {
     int32_t d[9];
-    const int32_t bin = (now[0] + now[1] + now[2]) / (3 * 256 / GRAIN_BINS);
+    /* Of the mean: how bright one of them is and how much they differ goes together. */
+    const int32_t sum = now[0] + now[1] + now[2] + last[0] + last[1] + last[2];
+    const int32_t bin = sum / (6 * 256 / GRAIN_BINS);
     bool is_still = true;
     for (int k = 0; k < 9; k++) {
         d[k] = now[k] - last[k];

@@ -263,8 +263,8 @@ static rlf_model *build(const rlf_model_def *def)
         memcpy(parts, def->parts, (size_t)def->part_count * sizeof(*parts));
     } else {
         int32_t texture = def->image_count > 0 ? 0 : -1;
-        parts[0] = (rlf_model_part){
-            0, def->triangle_count, {1.0f, 1.0f, 1.0f}, texture, 0.0f, 0.0f};
+        parts[0] =
+            (rlf_model_part){0, def->triangle_count, {1.0f, 1.0f, 1.0f}, texture, 0.0f, 0.0f};
     }
     fill_textures(def, (uint8_t *)block + l.texels, textures);
     rlf_model *model = (rlf_model *)(void *)block;

@@ -6,10 +6,10 @@
 #include <string.h>
 
 #define FOUR_PI 12.566371f
-#define LEAST_PATCHES 64   /* fewer say nothing about a room */
-#define MIRRORED 0.3f      /* weight of what is seen for what is behind the camera */
-#define NEAR_M2 0.3f       /* light of places so far (squared) tells how light a place is */
-#define DARKEST 0.2f       /* share of the lamp that the darkest place gets */
+#define LEAST_PATCHES 64    /* fewer say nothing about a room */
+#define MIRRORED 0.3f       /* weight of what is seen for what is behind the camera */
+#define NEAR_M2 0.3f        /* light of places so far (squared) tells how light a place is */
+#define DARKEST 0.2f        /* share of the lamp that the darkest place gets */
 #define DARKEST_MEAN 0.002f /* of a picture that is not black */
 
 enum { LEVELS = 5, ALL_LEVELS = 256 + 64 + 16 + 4 + 1 };
@@ -119,7 +119,8 @@ static float gather(const probe_room *room, const float center[3], float radius,
         const float distance2 = x * x + y * y + z * z + 1e-6f;
         const float facing = -(x * room->n[0][k] + y * room->n[1][k] + z * room->n[2][k]);
         const float grey = room->light[0][k] + room->light[1][k] + room->light[2][k];
-        const float near_by = room->area[k] / (distance2 + NEAR_M2);
+        const float from = 1.0f / (distance2 + NEAR_M2);
+        const float near_by = room->area[k] * from * from;
         all += near_by * grey;
         square += near_by * grey * grey;
         if (facing > 0.0f) {
@@ -169,8 +170,8 @@ static void push(const float mean[3], radiance *r)
             const int32_t parent = above + i / side / 2 * (side / 2) + i % side / 2;
             const float *guess = side > 1 ? r->light[parent] : mean;
             for (int c = 0; c < 3; c++) {
-                r->light[at + i][c] = (r->light[at + i][c] + doubt * guess[c]) /
-                                      (r->weight[at + i] + doubt);
+                r->light[at + i][c] =
+                    (r->light[at + i][c] + doubt * guess[c]) / (r->weight[at + i] + doubt);
             }
         }
         above = at;

@@ -1,5 +1,5 @@
-/* Light by place: what the camera's picture, put on the surfaces it shows, sends to each body. Shared
- * by both renderers.
+/* Light by place: what the camera's picture, put on the surfaces it shows, sends to each body.
+ * Shared by both renderers.
  *
  * All light is linear, an sRGB code being taken as the square root of it. Frames are the picture
  * camera's. A body's pixel shows
@@ -18,16 +18,16 @@
 #include "relief/model.h"
 
 enum {
-    PROBE_SIDE = 16,                      /* cells of an octahedral map (Cigolle et al. 2014) */
-    PROBE_ROW = PROBE_SIDE + 2,           /* with those that it goes on with beyond its edges */
-    PROBE_CELLS = PROBE_ROW * PROBE_ROW,  /* cell (x, y) at (y + 1) * PROBE_ROW + x + 1 */
-    PROBE_TERMS = 9,                      /* of 1 x y z xy yz zx zz xx-yy */
-    PROBE_OWN = 8,                        /* bodies with a probe of their own: the nearest */
+    PROBE_SIDE = 16,                     /* cells of an octahedral map (Cigolle et al. 2014) */
+    PROBE_ROW = PROBE_SIDE + 2,          /* with those that it goes on with beyond its edges */
+    PROBE_CELLS = PROBE_ROW * PROBE_ROW, /* cell (x, y) at (y + 1) * PROBE_ROW + x + 1 */
+    PROBE_TERMS = 9,                     /* of 1 x y z xy yz zx zz xx-yy */
+    PROBE_OWN = 8,                       /* bodies with a probe of their own: the nearest */
     PROBE_PATCHES = 2048
 };
 
-/* Of the light on a white surface in a well lit room: what comes from all around, and what a surface
- * that faces the lamp gets of it. */
+/* Of the light on a white surface in a well lit room: what comes from all around, and what a
+ * surface that faces the lamp gets of it. */
 #define PROBE_AMBIENT 0.3
 #define PROBE_DIRECT 0.7
 

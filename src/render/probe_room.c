@@ -83,10 +83,9 @@ void probe_room_read(probe_room *room, const rlf_rig *rig, const rlf_frame *fram
     for (int32_t y = step / 2; has_all && y < surface->height; y += step) {
         for (int32_t x = step / 2; x < surface->width; x += step) {
             const int32_t i = y * surface->width + x;
-            const uint8_t *color =
-                surface->depth[i] > 0.0f
-                    ? color_at(rig, &frame->color, rlf_surface_point(surface, i))
-                    : NULL;
+            const uint8_t *color = surface->depth[i] > 0.0f
+                                       ? color_at(rig, &frame->color, rlf_surface_point(surface, i))
+                                       : NULL;
             if (color != NULL) {
                 add_patch(room, surface, i, color, step, T_picture_depth);
             }

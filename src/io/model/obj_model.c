@@ -34,7 +34,8 @@ static double number_within(char *line, double most)
     return word != NULL && io_number_parse(word, &x) ? rlf_clamp(x, 0.0, most) : 0.0;
 }
 
-/* The roughness whose highlight is as wide as Phong's with an exponent, after Walter et al. 2007. */
+/* The roughness whose highlight is as wide as Phong's with an exponent, after Walter et al. 2007.
+ */
 static float gloss_of(double exponent)
 {
     return (float)(1.0 - sqrt(sqrt(2.0 / (exponent + 2.0))));

@@ -64,7 +64,7 @@ typedef struct gl_bodies {
 /* What all bodies of a picture share. */
 typedef struct gl_bodies_pass {
     const gl_view *view;
-    const gl_probes *probes;      /* of the snapshot's bodies */
+    const gl_probes *probes; /* of the snapshot's bodies */
     const gl_grain *noise;
     rlf_vec3 light_direction;     /* depth camera frame, from the light into the scene */
     const gl_texture *backdrop;   /* shows through where the real world hides a part of a pixel */

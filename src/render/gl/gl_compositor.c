@@ -354,8 +354,7 @@ static bool has_real_ambient(const gl_compositor *c)
 
 static gl_soft_real soft_real(const gl_compositor *c)
 {
-    return (gl_soft_real){&c->near_texture, &c->far_texture, &c->cover_texture,
-                          &c->def.rig.noise};
+    return (gl_soft_real){&c->near_texture, &c->far_texture, &c->cover_texture, &c->def.rig.noise};
 }
 
 /* The colour image, or depth in grey when the frame has none, and the bodies' shadows. */
@@ -387,12 +386,9 @@ static rlf_result draw_backdrop(gl_compositor *c, const rlf_render_input *input)
     }
     if (is_shadowed) {
         const gl_soft_real sides = soft_real(c);
-        const gl_backdrop_shadows shadows = {&c->view,
-                                             &c->depth_texture,
-                                             has_edges(c, input) ? &sides : NULL,
-                                             to_light_of(c),
-                                             c->casters,
-                                             input->snapshot->body_count};
+        const gl_backdrop_shadows shadows = {
+            &c->view,       &c->depth_texture, has_edges(c, input) ? &sides : NULL,
+            to_light_of(c), c->casters,        input->snapshot->body_count};
         gl_backdrop_draw_shadows(&c->backdrop, &shadows);
         if (has_real_shade(c)) {
             result = update_shade(c, input, shadows.to_light);

@@ -64,11 +64,10 @@ const char gl_probe_glsl[] =
 
 gl_probe_uniforms gl_probe_find_uniforms(GLuint program)
 {
-    gl_probe_uniforms u = {glGetUniformLocation(program, "u_around"),
-                           glGetUniformLocation(program, "u_rough"),
-                           glGetUniformLocation(program, "u_direct"),
-                           glGetUniformLocation(program, "u_probe_row"),
-                           glGetUniformLocation(program, "u_material")};
+    gl_probe_uniforms u = {
+        glGetUniformLocation(program, "u_around"), glGetUniformLocation(program, "u_rough"),
+        glGetUniformLocation(program, "u_direct"), glGetUniformLocation(program, "u_probe_row"),
+        glGetUniformLocation(program, "u_material")};
     return u;
 }
 

@@ -7,12 +7,12 @@
 
 /* SOFT_LANES pixels: geometry, then what becomes of it. */
 typedef struct lanes {
-    float n[3][SOFT_LANES]; /* unit */
-    float r[3][SOFT_LANES]; /* mirrored direction */
+    float n[3][SOFT_LANES];                        /* unit */
+    float r[3][SOFT_LANES];                        /* mirrored direction */
     float to_eye[SOFT_LANES], to_lamp[SOFT_LANES]; /* cosines to the normal */
-    float lamp[SOFT_LANES];           /* mirrored, of its light, by a surface that mirrors all */
-    float share[2][SOFT_LANES];       /* of what comes mirrored: times the colour, and plain */
-    float mirrored[3][SOFT_LANES];    /* radiance */
+    float lamp[SOFT_LANES];        /* mirrored, of its light, by a surface that mirrors all */
+    float share[2][SOFT_LANES];    /* of what comes mirrored: times the colour, and plain */
+    float mirrored[3][SOFT_LANES]; /* radiance */
 } lanes;
 
 /* Unit normals, and the mirrored direction of the ray. */
@@ -35,7 +35,8 @@ RLF_KERNEL_PART void place(const soft_stream *v, int32_t first, const float ligh
         const float x = nx * per_n;
         const float y = ny * per_n;
         const float z = nz * per_n;
-        const float per_e = 1.0f / sqrtf(v->ray_x[i] * v->ray_x[i] + v->ray_y[i] * v->ray_y[i] + 1.0f);
+        const float per_e =
+            1.0f / sqrtf(v->ray_x[i] * v->ray_x[i] + v->ray_y[i] * v->ray_y[i] + 1.0f);
         const float ex = -v->ray_x[i] * per_e;
         const float ey = -v->ray_y[i] * per_e;
         const float ez = -per_e;

@@ -123,8 +123,7 @@ static void add_hull(soft *s, const body_transform *T, const rlf_shape *shape, i
 static void add_shape(soft *s, const rlf_shape *shape, const rlf_pose *T_picture_body, int32_t body)
 {
     rlf_quat q = rlf_quat_normalize(T_picture_body->q);
-    body_transform transform = {rlf_quat_to_mat3(q), T_picture_body->p,
-                                shape_mesh_scale_of(shape)};
+    body_transform transform = {rlf_quat_to_mat3(q), T_picture_body->p, shape_mesh_scale_of(shape)};
     if (shape->type == RLF_SHAPE_HULL) {
         add_hull(s, &transform, shape, body);
     } else {

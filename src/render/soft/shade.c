@@ -277,7 +277,8 @@ RLF_KERNEL void soft_shade_faces(const soft *s, const soft_ends *ends, int32_t c
         const soft_face *face = &s->scene.faces[id];
         const soft_body *body = &s->scene.bodies[face->body];
         const bool has_skin = face->skin > 0;
-        const probe_material material = has_skin ? s->scene.skins[face->skin].material : body->material;
+        const probe_material material =
+            has_skin ? s->scene.skins[face->skin].material : body->material;
         if (stream.body != body || stream.has_skin != has_skin ||
             material.metallic != stream.material.metallic ||
             material.roughness != stream.material.roughness) {

@@ -38,12 +38,23 @@ static void destroy(void *self)
     if (s->probes != NULL) {
         probe_set_destroy(s->probes);
     }
-    void *parts[17] = {s->workers,           s->image.data,        s->matte.data,
-                       s->scene.faces,       s->scene.bodies,      s->corners,
-                       s->column_left,       s->column_weight,     s->grid_image.data,
-                       s->shade_tiles,       s->scene.casters,     s->scene.reach,
-                       s->scene.real_shades, s->scene.obscurances, s->scene.skins,
-                       s->probes,            s->grain};
+    void *parts[17] = {s->workers,
+                       s->image.data,
+                       s->matte.data,
+                       s->scene.faces,
+                       s->scene.bodies,
+                       s->corners,
+                       s->column_left,
+                       s->column_weight,
+                       s->grid_image.data,
+                       s->shade_tiles,
+                       s->scene.casters,
+                       s->scene.reach,
+                       s->scene.real_shades,
+                       s->scene.obscurances,
+                       s->scene.skins,
+                       s->probes,
+                       s->grain};
     for (int i = 0; i < 17; i++) {
         rlf_free(parts[i]);
     }
@@ -148,8 +159,8 @@ static rlf_result allocate(soft *s)
     s->column_weight = rlf_alloc_array((size_t)width, sizeof(*s->column_weight));
     if (result != RLF_OK || s->matte.data == NULL || s->scene.bodies == NULL ||
         s->scene.casters == NULL || s->scene.reach == NULL || s->scene.real_shades == NULL ||
-        s->scene.obscurances == NULL || s->corners == NULL || s->probes == NULL || s->grain == NULL || s->column_left == NULL ||
-        s->column_weight == NULL) {
+        s->scene.obscurances == NULL || s->corners == NULL || s->probes == NULL ||
+        s->grain == NULL || s->column_left == NULL || s->column_weight == NULL) {
         return RLF_ERROR_MEMORY;
     }
     probe_set_init(s->probes);

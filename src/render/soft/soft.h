@@ -74,13 +74,13 @@ typedef struct soft_skin {
     const rlf_model_texture *texture; /* NULL = none */
     float color[3];                   /* of the part and the body, linear */
     probe_material material;
-    float low[2], high[2];            /* texture coordinates of the face */
+    float low[2], high[2]; /* texture coordinates of the face */
 } soft_skin;
 
 typedef struct soft_body {
-    int32_t first, end;      /* faces */
-    int32_t y0, y1;          /* rows it may touch: y0 <= y < y1 */
-    float color[3];          /* linear */
+    int32_t first, end; /* faces */
+    int32_t y0, y1;     /* rows it may touch: y0 <= y < y1 */
+    float color[3];     /* linear */
     probe_material material;
     const light_probe *probe;
     const uint32_t *texture; /* level to sample; a texel's bytes are itself, the next in the row,
@@ -205,8 +205,8 @@ typedef struct soft_shade_tile {
     float light[SOFT_SHADE_SAMPLES]; /* share that is left */
     /* Where the matte of an edge is, that was of what is farther, and this is what is nearer. */
     float near_z[SOFT_SHADE_SAMPLES], near_light[SOFT_SHADE_SAMPLES];
-    int32_t step;                    /* pixels from one sample to the next */
-    int32_t columns, rows, count;    /* of samples; count: in whole lanes */
+    int32_t step;                 /* pixels from one sample to the next */
+    int32_t columns, rows, count; /* of samples; count: in whole lanes */
     bool has_depth, has_edge, is_known, is_shaded;
 } soft_shade_tile;
 
@@ -233,8 +233,8 @@ typedef struct soft {
     rlf_vec3 to_light; /* unit, picture camera frame */
     probe_set *probes;
     grain *grain;
-    bool has_grain;    /* the picture is the camera's */
-    int32_t shade_px;  /* pixels from one sample of shadows to the next where depth is smooth */
+    bool has_grain;   /* the picture is the camera's */
+    int32_t shade_px; /* pixels from one sample of shadows to the next where depth is smooth */
     float ray_x0, ray_step_x; /* x / z of pixel column i, without the lens: ray_x0 + i ray_step_x */
     float ray_y0, ray_step_y;
 

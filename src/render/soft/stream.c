@@ -241,7 +241,7 @@ RLF_KERNEL_PART void add_segment(const soft *s, const soft_stream *stream,
 /* What is beyond the last lane is worked on too. */
 static void end_lanes(soft_stream *v)
 {
-    float *const all[10] = {v->coverage, v->n[0], v->n[1], v->n[2], v->s,
+    float *const all[10] = {v->coverage, v->n[0],  v->n[1],  v->n[2],    v->s,
                             v->t,        v->ray_x, v->ray_y, v->ambient, v->direct};
     for (int k = 0; k < 10; k++) {
         memset(all[k] + v->count, 0, SOFT_LANES * sizeof(float));

@@ -19,13 +19,13 @@ typedef struct soft_stream {
     const soft_body *body; /* of all faces */
     bool has_skin;         /* alike; else the body's own pattern */
     probe_material material;
-    int32_t count;         /* of lanes; the next SOFT_LANES may hold anything */
+    int32_t count; /* of lanes; the next SOFT_LANES may hold anything */
     int32_t segment_count;
     float coverage[STREAM_ROOM]; /* share of the samples that see the face */
     float z[STREAM_ROOM];        /* first 1/z */
     float n[3][STREAM_ROOM];     /* normal / z */
     float ray_x[STREAM_ROOM], ray_y[STREAM_ROOM];
-    float s[STREAM_ROOM], t[STREAM_ROOM]; /* first s/z, t/z */
+    float s[STREAM_ROOM], t[STREAM_ROOM];            /* first s/z, t/z */
     float ambient[STREAM_ROOM], direct[STREAM_ROOM]; /* shares of light that are left */
     /* light sent, colour times the one plus the other; without a skin its codes */
     float times[3][STREAM_ROOM], plus[3][STREAM_ROOM], codes[3][STREAM_ROOM];

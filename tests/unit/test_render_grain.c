@@ -1,0 +1,147 @@
+/* Bodies have the camera's noise: as strong, and as alike from pixel to pixel, as what is around.
+ */
+#include "render/grain.h"
+#include "render_scene.h"
+#include "test.h"
+
+#include <math.h>
+
+#define FRAMES 24
+
+static uint64_t state_of_noise = 1;
+
+static double normal_noise(void)
+{
+    double sum = -6.0;
+    for (int i = 0; i < 12; i++) {
+        state_of_noise = state_of_noise * 6364136223846793005u + 1442695040888963407u;
+        sum += (double)(state_of_noise >> 40) / 16777216.0;
+    }
+    return sum;
+}
+
+/* A grey picture with noise of `sigma` codes after a blur (side, 1, side) along rows. */
+static void fill_noisy(render_scene *s, double sigma, double side)
+{
+    const int32_t width = s->rig.color.width;
+    const double scale = sigma / sqrt(1.0 + 2.0 * side * side);
+    double before = 0.0, here = 0.0, after = 0.0;
+    for (int32_t i = 0; i < width * s->rig.color.height; i++) {
+        before = here;
+        here = after;
+        after = normal_noise();
+        const double code = 120.0 + scale * (here + side * (before + after));
+        memset(s->color + 4 * (size_t)i, (int)(code + 0.5), 3);
+    }
+}
+
+/* Variance of changes from picture to picture, and their correlation with the next pixel's. */
+typedef struct power {
+    double square, beside;
+    int64_t count;
+} power;
+
+static void add_power(power *p, const uint8_t *last, const rlf_image_rgba8 *now, int32_t x0,
+                      int32_t y0)
+{
+    for (int32_t y = y0; y < y0 + 40; y++) {
+        for (int32_t x = x0; x < x0 + 40; x++) {
+            const ptrdiff_t at = 4 * ((ptrdiff_t)y * now->width + x) + 1;
+            const double d = (double)now->data[at] - last[at];
+            const double next = (double)now->data[at + 4] - last[at + 4];
+            p->square += d * d;
+            p->beside += d * next;
+            p->count++;
+        }
+    }
+}
+
+/* Noise of a wall and of a grey box before it. */
+static void measure(double sigma, double side, power *wall, power *body)
+{
+    render_scene *s = scene_make(3.0);
+    rlf_body_state *box = scene_add_body(s, scene_box(0.5), rlf_vec3_make(0.052, 0, 2.0));
+    rlf_compositor_def def = scene_def(s);
+    rlf_compositor *compositor = NULL;
+    const size_t size = 4 * (size_t)s->rig.color.width * (size_t)s->rig.color.height;
+    uint8_t *last = malloc(size);
+    for (int k = 0; k < 3; k++) {
+        box->color[k] = 0.8f;
+    }
+    def.light_direction = rlf_vec3_make(0, 0, 1);
+    assert_int_equal(rlf_compositor_create_soft(&def, &compositor), RLF_OK);
+    *wall = *body = (power){0};
+    for (int i = 0; i < FRAMES; i++) {
+        rlf_render_output out;
+        fill_noisy(s, sigma, side);
+        s->frame.sequence++;
+        assert_int_equal(rlf_compositor_render(compositor, &s->input, &out), RLF_OK);
+        if (i > FRAMES / 2) {
+            add_power(wall, last, &out.image, 100, 100);
+            add_power(body, last, &out.image, 460, 250);
+        }
+        memcpy(last, out.image.data, size);
+    }
+    free(last);
+    rlf_compositor_destroy(&compositor);
+    scene_free(s);
+}
+
+static void bodies_are_as_noisy_as_what_is_around(void **state)
+{
+    (void)state;
+    static const double kinds[3][2] = {{2.0, 0.0}, {5.0, 0.3}, {8.0, 0.5}};
+    for (int i = 0; i < 3; i++) {
+        power wall, body;
+        measure(kinds[i][0], kinds[i][1], &wall, &body);
+        const double ratio = body.square / wall.square;
+        const double wall_beside = wall.beside / wall.square;
+        const double body_beside = body.beside / body.square;
+        print_message("sigma %.0f: power of the body's noise over its neighbours' %.3f, "
+                      "correlation with the next pixel %.2f, theirs %.2f\n",
+                      kinds[i][0], ratio, body_beside, wall_beside);
+        assert_true(ratio > 0.9 && ratio < 1.1);
+        assert_true(fabs(body_beside - wall_beside) < 0.1);
+    }
+}
+
+/* A picture that stands still, as one that is shown again and again, gives none. */
+static void no_noise_gives_none(void **state)
+{
+    (void)state;
+    power wall, body;
+    measure(0.0, 0.0, &wall, &body);
+    assert_true(wall.square == 0.0 && body.square == 0.0);
+}
+
+/* What moves is no noise. */
+static void a_moving_hand_is_no_noise(void **state)
+{
+    (void)state;
+    render_scene *s = scene_make(3.0);
+    grain *g = calloc(1, sizeof(*g));
+    const int32_t width = s->rig.color.width;
+    grain_init(g);
+    for (int i = 0; i < FRAMES; i++) {
+        fill_noisy(s, 2.0, 0.0);
+        for (int32_t y = 100; y < 300; y++) {
+            memset(s->color + 4 * ((size_t)y * (size_t)width + 20 * (size_t)i), 200, 4 * 150);
+        }
+        s->frame.sequence++;
+        grain_update(g, &s->frame);
+    }
+    assert_true(g->is_known);
+    assert_true(g->sigma[120 / 16][1] > 1.8f && g->sigma[120 / 16][1] < 2.3f);
+    free(g);
+    scene_free(s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bodies_are_as_noisy_as_what_is_around),
+        cmocka_unit_test(no_noise_gives_none),
+        cmocka_unit_test(a_moving_hand_is_no_noise),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
