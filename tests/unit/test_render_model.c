@@ -4,7 +4,7 @@
 #include "render_scene.h"
 #include "test.h"
 
-#define GOLDEN_HASH 0x0ee6c670d02ebe48u
+#define GOLDEN_HASH 0x0af0991368c8d42eu
 
 static rlf_render_output draw(render_scene *s, rlf_compositor *compositor)
 {
