@@ -18,8 +18,7 @@ enum {
     UNIT_COVER = 5,
     UNIT_SHADE = 6,
     UNIT_SKIN = 7,
-    UNIT_PROBES = 8,
-    UNIT_GRAIN = 9
+    UNIT_PROBES = 8
 };
 
 /* Values of u_occlusion. */
@@ -92,7 +91,7 @@ static const char body_fragment[] =
     "        shown = share_of_soft(u_near_z, u_far_z, u_cover, u_noise, z);\n"
     "    }\n"
     "    vec3 real = texelFetch(u_backdrop, ivec2(gl_FragCoord.xy), 0).rgb;\n"
-    "    o_color = vec4(mix(real, grainy(color), shown), shown);\n"
+    "    o_color = vec4(mix(real, color, shown), shown);\n"
     "}\n";
 
 static void create_program_uniforms(gl_bodies *bodies)
@@ -130,8 +129,6 @@ static void create_program_uniforms(gl_bodies *bodies)
     glUniform1i(glGetUniformLocation(p, "u_shade_maps"), UNIT_SHADE);
     glUniform1i(glGetUniformLocation(p, "u_skin"), UNIT_SKIN);
     glUniform1i(glGetUniformLocation(p, "u_probe_maps"), UNIT_PROBES);
-    glUniform1i(glGetUniformLocation(p, "u_grain"), UNIT_GRAIN);
-    bodies->uniforms.grain = gl_grain_find_uniforms(p);
     glUniform2f(glGetUniformLocation(p, "u_body_shares"), (GLfloat)BODY_AMBIENT_SHARE,
                 (GLfloat)BODY_DIRECT_SHARE);
     glUseProgram(0);
@@ -223,7 +220,7 @@ rlf_result gl_bodies_create(bool is_es, gl_bodies *out)
         {gl_view_glsl, body_vertex},
         {gl_caster_glsl,
          GL_OCCLUSION_GLSL GL_SOFT_OCCLUSION_GLSL GL_REAL_SHADE_GLSL GL_OBSCURANCE_GLSL,
-         gl_probe_glsl, gl_grain_glsl, body_fragment}};
+         gl_probe_glsl, body_fragment}};
     out->program = gl_program_build(is_es, &source);
     if (out->program == 0) {
         return RLF_ERROR_DEVICE;
@@ -278,8 +275,6 @@ void gl_bodies_begin(const gl_bodies *bodies, const gl_bodies_pass *pass)
     gl_view_set_uniforms(&bodies->view_uniforms, pass->view);
     set_rotation(bodies->uniforms.picture_camera, pass->view->T_picture_camera.q);
     gl_texture_bind(&pass->probes->texture, UNIT_PROBES);
-    gl_texture_bind(&pass->noise->texture, UNIT_GRAIN);
-    gl_grain_set(&bodies->uniforms.grain, pass->noise);
     gl_texture_bind(pass->backdrop, UNIT_BACKDROP);
     if (pass->real_depth != NULL) {
         gl_texture_bind(pass->real_depth, UNIT_REAL_DEPTH);

@@ -47,7 +47,6 @@ typedef struct gl_bodies {
         GLint picture_body, camera_body, picture_camera, shift, color, light, layer, level,
             has_skin, occlusion, noise, intrinsics, shader_count;
         gl_probe_uniforms probe;
-        gl_grain_uniforms grain;
         gl_caster_uniforms shaders[CASTER_BODIES];
         gl_shade_uniforms shade;
         gl_obscurance_uniforms near_by;
@@ -64,8 +63,7 @@ typedef struct gl_bodies {
 /* What all bodies of a picture share. */
 typedef struct gl_bodies_pass {
     const gl_view *view;
-    const gl_probes *probes; /* of the snapshot's bodies */
-    const gl_grain *noise;
+    const gl_probes *probes;      /* of the snapshot's bodies */
     rlf_vec3 light_direction;     /* depth camera frame, from the light into the scene */
     const gl_texture *backdrop;   /* shows through where the real world hides a part of a pixel */
     const gl_texture *real_depth; /* z in the picture's camera per pixel; NULL = none */

@@ -14,6 +14,7 @@
 #include "environment/light.h"
 #include "environment/real_depth.h"
 #include "environment/edge_matte.h"
+#include "render/finish.h"
 #include "render/render.h"
 #include "render/soft/draw.h"
 
@@ -30,7 +31,7 @@ typedef struct gl_compositor {
     gl_shade shade;        /* of what real things take */
     gl_obscurance near_by; /* of the light around */
     gl_probes probes;
-    gl_grain noise;
+    finish finish;         /* of the picture that is read back */
     rlf_image_rgba8 image; /* read back */
     rlf_plane_u8 matte;
 
@@ -60,7 +61,6 @@ static void destroy_gl(gl_compositor *c)
     gl_texture_destroy(&c->cover_texture);
     gl_shade_destroy(&c->shade);
     gl_probes_destroy(&c->probes);
-    gl_grain_destroy(&c->noise);
     gl_thesis_destroy(&c->thesis);
     gl_layers_destroy(&c->layers);
     gl_bodies_destroy(&c->bodies);
@@ -73,6 +73,7 @@ static void free_planes(gl_compositor *c)
     real_depth_destroy(&c->real);
     light_direction_destroy(&c->direction);
     edge_matte_destroy(&c->edges);
+    finish_destroy(&c->finish);
     rlf_compositor_destroy(&c->soft);
     gl_obscurance_destroy(&c->near_by);
     rlf_free(c->casters);
@@ -104,6 +105,9 @@ static rlf_result create_planes(gl_compositor *c)
     c->image = (rlf_image_rgba8){rlf_alloc_array(count, 4), w, h, 4 * (ptrdiff_t)w};
     c->matte = (rlf_plane_u8){rlf_alloc_array(count, 1), w, h, w};
     if (c->image.data == NULL || c->matte.data == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    if (finish_create(w, h, &c->finish) != RLF_OK) {
         return RLF_ERROR_MEMORY;
     }
     if (c->def.occlusion == RLF_OCCLUSION_SOFT) {
@@ -167,9 +171,6 @@ static rlf_result create_gl(gl_compositor *c)
     c->cover_texture = gl_texture_create(GL_NEAREST);
     c->shade = gl_shade_create();
     result = gl_probes_create(&c->probes);
-    if (result == RLF_OK) {
-        result = gl_grain_create(&c->noise);
-    }
     return result == RLF_OK ? check_errors(&c->context) : result;
 }
 
@@ -203,7 +204,7 @@ static rlf_result prepare(const rlf_compositor_def *def, gl_compositor **out)
 }
 
 /* Finishes a prepared compositor with the context it was given; destroys it on failure. */
-static rlf_result finish(gl_compositor *c, rlf_compositor **out)
+static rlf_result complete(gl_compositor *c, rlf_compositor **out)
 {
     gl_context_saved saved;
     rlf_result result;
@@ -240,7 +241,7 @@ static rlf_result create(const rlf_compositor_def *def, bool use_current_context
         return result;
     }
     c->context = context;
-    return finish(c, out);
+    return complete(c, out);
 }
 
 rlf_result gl_compositor_create_offscreen(const rlf_compositor_def *def, gl_api api,
@@ -415,7 +416,6 @@ static void draw_bodies(gl_compositor *c, const rlf_snapshot *snapshot)
     const gl_soft_real sides = soft_real(c);
     gl_bodies_pass pass = {&c->view,
                            &c->probes,
-                           &c->noise,
                            c->direction.now,
                            &c->backdrop.texture,
                            occlusion == RLF_OCCLUSION_DEPTH ? &c->depth_texture : NULL,
@@ -507,7 +507,6 @@ static rlf_result draw(gl_compositor *c, const rlf_render_input *input)
     if (input->view == RLF_VIEW_MESH) {
         result = draw_wireframe(c, input->surface);
     } else if (has_bodies(input)) {
-        gl_grain_update(&c->noise, input->frame);
         result = update_probes(c, input);
         if (result == RLF_OK) {
             draw_bodies(c, input->snapshot);
@@ -551,6 +550,10 @@ static rlf_result render(void *self, const rlf_render_input *input, rlf_render_o
         return result;
     }
     split_matte(c);
+    finish_look(&c->finish, input->frame);
+    if (has_bodies(input)) {
+        finish_picture(&c->finish, c->def.pool, &c->image, &c->matte);
+    }
     if (c->def.enable_overlay) {
         soft_draw_overlay(&c->image, input);
     }

@@ -5,7 +5,6 @@
 
 #include "render/caster.h"
 #include "render/gl/gl_context.h"
-#include "render/grain.h"
 #include "render/probe.h"
 #include "render/real_shade.h"
 
@@ -99,28 +98,6 @@ gl_probe_uniforms gl_probe_find_uniforms(GLuint program);
 /* For the program in use: body `index`, and what its surface is of. */
 void gl_probes_set(const gl_probe_uniforms *uniforms, const gl_probes *probes, int32_t index);
 void gl_probes_set_material(const gl_probe_uniforms *uniforms, probe_material material);
-
-/* ---- gl_grain.c: the camera's noise, for the bodies' shader: see grain.h. */
-
-/* GLSL: `vec3 grainy(vec3 code)`: with noise of its brightness. */
-extern const char gl_grain_glsl[];
-
-typedef struct gl_grain {
-    grain *measured;
-    gl_texture texture;
-    int32_t blur[2], mixed; /* of the tile that is uploaded */
-} gl_grain;
-
-typedef struct gl_grain_uniforms {
-    GLint sigma, offset;
-} gl_grain_uniforms;
-
-rlf_result gl_grain_create(gl_grain *out);
-void gl_grain_destroy(gl_grain *noise);
-void gl_grain_update(gl_grain *noise, const rlf_frame *frame);
-gl_grain_uniforms gl_grain_find_uniforms(GLuint program);
-/* For the program in use. */
-void gl_grain_set(const gl_grain_uniforms *uniforms, const gl_grain *noise);
 
 /* ---- gl_shade.c: what real things take of bodies' light, for the bodies' shader. */
 

@@ -89,9 +89,6 @@ static void clear_run(const soft_row *row, ptrdiff_t stride, int32_t sums, soft_
 static void compose(const soft *s, float *const sums[4], int32_t y, soft_span t)
 {
     float *const sum[4] = {sums[0] + t.x0, sums[1] + t.x0, sums[2] + t.x0, sums[3] + t.x0};
-    if (s->grain->is_known && s->has_grain) {
-        soft_add_grain(s->grain, sum, (soft_lanes_at){t.x0, y, t.x1 - t.x0});
-    }
     soft_compose_row(sum, t.x1 - t.x0, rlf_rgba8_row(&s->image, y) + 4 * (ptrdiff_t)t.x0,
                      rlf_u8_row(&s->matte, y) + t.x0);
 }

@@ -4,33 +4,6 @@
 #include "kernel/kernel.h"
 #include "render/soft/soft.h"
 
-/* Noise of a pixel's brightness, as far as it is shown. */
-RLF_KERNEL_PART void add_noise(const grain *g, const float (*restrict tile)[3], int32_t column,
-                               float *restrict red, float *restrict green, float *restrict blue,
-                               const float *restrict shown, int32_t count)
-{
-    for (int32_t i = 0; i < count; i++) {
-        const float share = shown[i];
-        if (share > 0.0f) {
-            const float code = (red[i] + green[i] + blue[i]) / (3.0f * share);
-            const int32_t bin = (int32_t)(code < 255.0f ? code : 255.0f) / (256 / GRAIN_BINS);
-            const float *noise = tile[(column + i) & (GRAIN_TILE - 1)];
-            const float *sigma = g->sigma[bin];
-            const float r = red[i] + share * sigma[0] * noise[0];
-            const float a = green[i] + share * sigma[1] * noise[1];
-            const float b = blue[i] + share * sigma[2] * noise[2];
-            red[i] = r > 0.0f ? r : 0.0f;
-            green[i] = a > 0.0f ? a : 0.0f;
-            blue[i] = b > 0.0f ? b : 0.0f;
-        }
-    }
-}
-
-RLF_KERNEL void soft_add_grain(const grain *g, float *const sum[4], soft_lanes_at at)
-{
-    add_noise(g, grain_row(g, at.y), at.x + g->offset_x, sum[0], sum[1], sum[2], sum[3], at.count);
-}
-
 RLF_KERNEL_PART float over(uint32_t real, float rest, float color)
 {
     float value = (float)(int32_t)(real & 255u) * rest + color + 0.5f;

@@ -88,9 +88,6 @@ void soft_draw_shadows(const soft *s, soft_shade_tile *tiles, int32_t begin, int
 
 /* ---- compose.c: the last step of a row. */
 
-/* Gives the camera's noise to sums as below, of pixels from (x, y) on. */
-void soft_add_grain(const grain *g, float *const sum[4], soft_lanes_at at);
-
 /* Puts sums (red, green, blue, shown; whole lanes) over `count` pixels. */
 void soft_compose_row(float *const sum[4], int32_t count, uint8_t *restrict pixels,
                       uint8_t *restrict matte);

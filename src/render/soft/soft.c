@@ -38,6 +38,9 @@ static void destroy(void *self)
     if (s->probes != NULL) {
         probe_set_destroy(s->probes);
     }
+    if (s->finish != NULL) {
+        finish_destroy(s->finish);
+    }
     void *parts[17] = {s->workers,
                        s->image.data,
                        s->matte.data,
@@ -54,7 +57,7 @@ static void destroy(void *self)
                        s->scene.obscurances,
                        s->scene.skins,
                        s->probes,
-                       s->grain};
+                       s->finish};
     for (int i = 0; i < 17; i++) {
         rlf_free(parts[i]);
     }
@@ -152,7 +155,7 @@ static rlf_result allocate(soft *s)
     s->scene.real_shades = rlf_alloc_array(BODIES_AT_START, sizeof(*s->scene.real_shades));
     s->scene.obscurances = rlf_alloc_array(BODIES_AT_START, sizeof(*s->scene.obscurances));
     s->probes = rlf_alloc(sizeof(*s->probes));
-    s->grain = rlf_alloc(sizeof(*s->grain));
+    s->finish = rlf_alloc(sizeof(*s->finish));
     s->corners = rlf_alloc_array(SHAPE_MESH_VERTEX_MAX, sizeof(*s->corners));
     s->corner_capacity = SHAPE_MESH_VERTEX_MAX;
     s->column_left = rlf_alloc_array((size_t)width, sizeof(*s->column_left));
@@ -160,12 +163,11 @@ static rlf_result allocate(soft *s)
     if (result != RLF_OK || s->matte.data == NULL || s->scene.bodies == NULL ||
         s->scene.casters == NULL || s->scene.reach == NULL || s->scene.real_shades == NULL ||
         s->scene.obscurances == NULL || s->corners == NULL || s->probes == NULL ||
-        s->grain == NULL || s->column_left == NULL || s->column_weight == NULL) {
+        s->finish == NULL || s->column_left == NULL || s->column_weight == NULL) {
         return RLF_ERROR_MEMORY;
     }
     probe_set_init(s->probes);
-    grain_init(s->grain);
-    return RLF_OK;
+    return finish_create(width, height, s->finish);
 }
 
 static rlf_result check_def(const rlf_compositor_def *def)
@@ -242,7 +244,7 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
         return result;
     }
     soft_set_background(s, &input->frame->color);
-    grain_update(s->grain, input->frame);
+    finish_look(s->finish, input->frame);
     if (has_edges && s->real.has_moved) {
         edge_matte_forget(&s->edges);
     }
@@ -250,9 +252,8 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
         edge_matte_update(&s->edges, &s->real.z, real_depth_known(&s->real), input->frame);
     }
     if (has_bodies) {
-        s->has_grain = true;
         soft_draw_bodies(s, true);
-        s->has_grain = false;
+        finish_picture(s->finish, s->def.pool, &s->image, &s->matte);
     } else {
         rlf_parallel_for(s->def.pool, s->image.height, SOFT_BAND_ROWS, draw_background_rows, s);
     }

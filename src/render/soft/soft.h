@@ -15,7 +15,7 @@
 #include "relief/model.h"
 #include "render/body_texture.h"
 #include "render/caster.h"
-#include "render/grain.h"
+#include "render/finish.h"
 #include "render/probe.h"
 #include "environment/light.h"
 #include "render/real_shade.h"
@@ -232,8 +232,7 @@ typedef struct soft {
     light_direction direction;
     rlf_vec3 to_light; /* unit, picture camera frame */
     probe_set *probes;
-    grain *grain;
-    bool has_grain;   /* the picture is the camera's */
+    finish *finish;
     int32_t shade_px; /* pixels from one sample of shadows to the next where depth is smooth */
     float ray_x0, ray_step_x; /* x / z of pixel column i, without the lens: ray_x0 + i ray_step_x */
     float ray_y0, ray_step_y;

@@ -136,12 +136,103 @@ static void a_moving_hand_is_no_noise(void **state)
     scene_free(s);
 }
 
+/* ---- sharpness ------------------------------------------------------------------------------ */
+
+#define STRIPE 61.3 /* pixels, so that edges lie everywhere between pixels */
+
+/* Share of a Gaussian's step that is passed at x sigma. */
+static double step_at(double x)
+{
+    return 0.5 * (1.0 + erf(x / sqrt(2.0)));
+}
+
+/* Bright and dark stripes, blurred. */
+static void fill_stripes(render_scene *s, double sigma)
+{
+    const int32_t width = s->rig.color.width;
+    for (int32_t x = 0; x < width; x++) {
+        double light = 0.0;
+        for (int k = 0; k * STRIPE < width + STRIPE; k++) {
+            const double side = step_at((x - k * STRIPE) / sigma);
+            light += k % 2 == 0 ? side : -side;
+        }
+        const int code = (int)(60.0 + 130.0 * light + 0.5);
+        for (int32_t y = 0; y < s->rig.color.height; y++) {
+            memset(s->color + 4 * ((ptrdiff_t)y * width + x), code, 3);
+        }
+    }
+}
+
+/* From 10 to 90 % of the edge between x0 and x1 of a row, one way or the other. */
+static double edge_width(const uint8_t *row, int32_t x0, int32_t x1)
+{
+    double at[2] = {0.0, 0.0};
+    const double low = row[4 * x0];
+    const double step = row[4 * x1] - low;
+    for (int i = 0; i < 2; i++) {
+        const double wanted = i == 0 ? 0.1 : 0.9;
+        int32_t x = x0;
+        while (x < x1 && (row[4 * (x + 1)] - low) / step < wanted) {
+            x++;
+        }
+        const double here = (row[4 * x] - low) / step;
+        const double next = (row[4 * (x + 1)] - low) / step;
+        at[i] = x + (wanted - here) / (next - here);
+    }
+    return at[1] - at[0];
+}
+
+/* Mean widths of the stripes' edges, and of the left edge of boxes that stand everywhere between
+ * pixels, before a dark stripe. */
+static void measure_edges(double sigma, double *room, double *body)
+{
+    render_scene *s = scene_make(3.0);
+    rlf_body_state *box = scene_add_body(s, scene_box(0.3), rlf_vec3_make(0, 0, 2.0));
+    rlf_compositor_def def = scene_def(s);
+    rlf_compositor *compositor = NULL;
+    box->color[0] = box->color[1] = box->color[2] = 1.0f;
+    def.light_direction = rlf_vec3_make(0, 0, 1);
+    def.enable_real_ambient = false;
+    fill_stripes(s, sigma);
+    assert_int_equal(rlf_compositor_create_soft(&def, &compositor), RLF_OK);
+    *body = *room = 0.0;
+    for (int i = 0; i < 16; i++) {
+        rlf_render_output out;
+        const double left = 7.5 * STRIPE + i / 16.0; /* in the middle of a dark one */
+        box->T_world_body.p.x = (left - s->rig.color.cx) / 540.5 * 1.85 + 0.15 + 0.052;
+        s->frame.sequence++;
+        assert_int_equal(rlf_compositor_render(compositor, &s->input, &out), RLF_OK);
+        *body += edge_width(rlf_rgba8_row(&out.image, 270), (int32_t)left - 8, (int32_t)left + 9);
+    }
+    const uint8_t *row = s->color;
+    for (int k = 1; k < 15; k++) {
+        *room += edge_width(row, (int32_t)(k * STRIPE) - 10, (int32_t)(k * STRIPE) + 10) / 14.0;
+    }
+    *body /= 16.0;
+    rlf_compositor_destroy(&compositor);
+    scene_free(s);
+}
+
+static void edges_are_as_wide_as_the_room_s(void **state)
+{
+    (void)state;
+    static const double sigmas[4] = {0.3, 0.6, 0.8, 1.0};
+    for (int i = 0; i < 4; i++) {
+        double room, body;
+        measure_edges(sigmas[i], &room, &body);
+        print_message("blur of %.1f pixels: the room's edges are %.2f wide, a body's %.2f\n",
+                      sigmas[i], room, body);
+        assert_true(body > 0.85 * room && body < 1.2 * room);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bodies_are_as_noisy_as_what_is_around),
         cmocka_unit_test(no_noise_gives_none),
         cmocka_unit_test(a_moving_hand_is_no_noise),
+        cmocka_unit_test(edges_are_as_wide_as_the_room_s),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
