@@ -4,12 +4,18 @@
 #include <math.h>
 #include <string.h>
 
-#define NEWEST 0.15f      /* share of a picture in what is known */
-#define FIRST_LIMIT 24.0f /* codes: what differs by more has moved */
-#define STILL_SHARE 0.6f  /* of the spots: of fewer the camera moves */
-#define LEAST_SPOTS 24    /* of a brightness */
-#define MOST_BESIDE 0.6f  /* a blur of three pixels has no more */
+#define NEWEST 0.15f       /* share of a picture in what is known */
+#define LEAST_SPOTS 24     /* of a brightness */
+#define FLAT 8             /* codes to the next pixels: a place that shows noise and no motion, */
+#define STEEP 20           /* and one that shows motion */
+#define MOVES 2.0f         /* the camera does when steep places change so many times as much, */
+#define MOVES_CODES 2.0f   /* and more */
+#define PER_MEDIAN 1.4826f /* sigma of a normal distribution over the median of its size */
+#define OUTLIER 4.0f       /* sigma: something that moved */
+#define MOST_BESIDE 0.6f   /* a blur of three pixels has no more */
 #define STEPS 32.0f
+
+enum { CHANGES = 64 }; /* codes that are told apart */
 
 static uint32_t hash_of(uint32_t x)
 {
@@ -37,9 +43,11 @@ void grain_init(grain *g)
 
 /* ---- measuring ------------------------------------------------------------------------------ */
 
+/* How often a change is so large: of flat places by brightness and channel, of steep ones by green.
+ */
 typedef struct sums {
-    double square[GRAIN_BINS][3], all[3], beside[2], red_green;
-    int32_t count[GRAIN_BINS], still, seen;
+    int32_t flat[GRAIN_BINS][3][CHANGES], all[CHANGES], steep[CHANGES];
+    double square[3], beside[2], red_green;
 } sums;
 
 static void read_spot(const rlf_image_rgba8 *image, int32_t x, int32_t y, uint8_t out[9])
@@ -50,11 +58,22 @@ static void read_spot(const rlf_image_rgba8 *image, int32_t x, int32_t y, uint8_
     memcpy(out + 6, p + image->stride, 3);
 }
 
-/* What differs by more than four sigma has moved; a code of rounding is allowed beside. */
-static float limit_of(const grain *g, int32_t bin, int k)
+static int32_t size_of(int32_t change)
 {
-    const float most = 4.0f * 1.5f * g->sigma[bin][k] + 2.0f;
-    return g->is_known ? most : FIRST_LIMIT;
+    const int32_t size = change < 0 ? -change : change;
+    return size < CHANGES ? size : CHANGES - 1;
+}
+
+/* The largest step from a pixel to the next ones, of both pictures together, whose noise is less.
+ */
+static int32_t step_at(const uint8_t last[9], const uint8_t now[9])
+{
+    int32_t most = 0;
+    for (int k = 3; k < 9; k++) {
+        const int32_t step = size_of((now[k] + last[k] - now[k % 3] - last[k % 3]) / 2);
+        most = step > most ? step : most;
+    }
+    return most;
 }
 
 static void add_spot(const grain *g, const uint8_t last[9], const uint8_t now[9], sums *out)
@@ -63,25 +82,69 @@ static void add_spot(const grain *g, const uint8_t last[9], const uint8_t now[9]
     /* Of the mean: how bright one of them is and how much they differ goes together. */
     const int32_t sum = now[0] + now[1] + now[2] + last[0] + last[1] + last[2];
     const int32_t bin = sum / (6 * 256 / GRAIN_BINS);
-    bool is_still = true;
-    for (int k = 0; k < 9; k++) {
+    const int32_t step = step_at(last, now);
+    const float most = g->is_known ? OUTLIER * 1.5f * g->sigma[bin][1] + 2.0f : 24.0f;
+    bool is_noise = step <= FLAT + (int32_t)(2.0f * g->sigma[bin][1]);
+    out->steep[size_of(now[1] - last[1])] += step >= STEEP ? 1 : 0;
+    for (int k = 0; k < 9 && is_noise; k++) {
         d[k] = now[k] - last[k];
-        const float limit = limit_of(g, bin, k % 3);
-        is_still = is_still && (float)d[k] <= limit && (float)-d[k] <= limit;
+        if (k < 3) {
+            out->flat[bin][k][size_of(d[k])]++;
+        }
     }
-    out->seen++;
-    if (!is_still) {
-        return;
+    out->all[size_of(now[1] - last[1])] += is_noise ? 1 : 0;
+    for (int k = 0; k < 9 && is_noise; k++) {
+        is_noise = (float)size_of(d[k]) <= most;
     }
-    out->still++;
-    out->count[bin]++;
-    for (int k = 0; k < 3; k++) {
-        out->square[bin][k] += d[k] * d[k];
-        out->all[k] += d[k] * d[k];
+    if (is_noise) {
+        for (int k = 0; k < 3; k++) {
+            out->square[k] += d[k] * d[k];
+        }
+        out->beside[0] += d[1] * d[4];
+        out->beside[1] += d[1] * d[7];
+        out->red_green += d[0] * d[1];
     }
-    out->beside[0] += d[1] * d[4];
-    out->beside[1] += d[1] * d[7];
-    out->red_green += d[0] * d[1];
+}
+
+/* A change of k codes was anything from k - 1/2 to k + 1/2. */
+static float median_of(const int32_t counts[CHANGES], int32_t *out_count)
+{
+    int32_t all = 0;
+    for (int32_t k = 0; k < CHANGES; k++) {
+        all += counts[k];
+    }
+    *out_count = all;
+    float below = 0.0f;
+    for (int32_t k = 0; k < CHANGES && all > 0; k++) {
+        const float here = (float)counts[k];
+        if (below + here >= 0.5f * (float)all) {
+            const float low = k > 0 ? (float)k - 0.5f : 0.0f;
+            return low + (k > 0 ? 1.0f : 0.5f) * (0.5f * (float)all - below) / here;
+        }
+        below += here;
+    }
+    return 0.0f;
+}
+
+/* Variance of a picture's noise, from changes between two, without what moved. */
+static double variance_of(const int32_t counts[CHANGES], float median)
+{
+    const int32_t limit = (int32_t)(OUTLIER * PER_MEDIAN * median) + 2;
+    double square = 0.0;
+    double all = 0.0;
+    for (int32_t k = 0; k < CHANGES && k <= limit; k++) {
+        square += (double)counts[k] * k * k;
+        all += counts[k];
+    }
+    return all > 0.0 ? square / (2.0 * all) : 0.0;
+}
+
+static bool is_still(const sums *s)
+{
+    int32_t flat, steep;
+    const float noise = median_of(s->all, &flat);
+    const float motion = median_of(s->steep, &steep);
+    return flat >= LEAST_SPOTS && (steep < LEAST_SPOTS || motion <= MOVES * noise + MOVES_CODES);
 }
 
 static void approach(float *value, double now, bool is_known)
@@ -94,25 +157,26 @@ static void take_sums(grain *g, const sums *s)
 {
     int32_t from = -1;
     for (int32_t bin = 0; bin < GRAIN_BINS; bin++) {
-        const bool is_seen = s->count[bin] >= LEAST_SPOTS;
+        int32_t count = 0;
         for (int k = 0; k < 3; k++) {
+            const float median = median_of(s->flat[bin][k], &count);
             float variance = g->sigma[bin][k] * g->sigma[bin][k];
-            if (is_seen) {
-                approach(&variance, s->square[bin][k] / (2.0 * s->count[bin]), g->is_known);
+            if (count >= LEAST_SPOTS) {
+                approach(&variance, variance_of(s->flat[bin][k], median), g->is_known);
                 g->sigma[bin][k] = sqrtf(variance);
             } else if (from >= 0) {
                 g->sigma[bin][k] = g->sigma[from][k];
             }
         }
-        for (int32_t b = 0; is_seen && from < 0 && b < bin; b++) {
+        for (int32_t b = 0; count >= LEAST_SPOTS && from < 0 && b < bin; b++) {
             memcpy(g->sigma[b], g->sigma[bin], sizeof(g->sigma[b]));
         }
-        from = is_seen ? bin : from;
+        from = count >= LEAST_SPOTS ? bin : from;
     }
-    if (s->all[1] > 0.0 && s->all[0] > 0.0) {
-        approach(&g->beside[0], s->beside[0] / s->all[1], g->is_known);
-        approach(&g->beside[1], s->beside[1] / s->all[1], g->is_known);
-        approach(&g->common, s->red_green / sqrt(s->all[0] * s->all[1]), g->is_known);
+    if (s->square[1] > 0.0 && s->square[0] > 0.0) {
+        approach(&g->beside[0], s->beside[0] / s->square[1], g->is_known);
+        approach(&g->beside[1], s->beside[1] / s->square[1], g->is_known);
+        approach(&g->common, s->red_green / sqrt(s->square[0] * s->square[1]), g->is_known);
     }
     g->is_known = g->is_known || from >= 0;
 }
@@ -208,9 +272,10 @@ void grain_update(grain *g, const rlf_frame *frame)
     if (!is_first && frame->sequence == g->sequence) {
         return;
     }
-    sums s = {.seen = 0};
+    sums s;
+    memset(&s, 0, sizeof(s));
     look(g, image, is_first, &s);
-    if (s.seen > 0 && (float)s.still > STILL_SHARE * (float)s.seen) {
+    if (!is_first && is_still(&s)) {
         take_sums(g, &s);
     }
     g->sequence = frame->sequence;

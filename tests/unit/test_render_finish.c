@@ -136,6 +136,30 @@ static void a_moving_hand_is_no_noise(void **state)
     scene_free(s);
 }
 
+/* A picture with a texture that moves by a pixel tells nothing, and bodies get no noise from it. */
+static void a_moving_camera_tells_nothing(void **state)
+{
+    (void)state;
+    render_scene *s = scene_make(3.0);
+    grain *g = calloc(1, sizeof(*g));
+    const int32_t width = s->rig.color.width;
+    grain_init(g);
+    for (int i = 0; i < FRAMES; i++) {
+        fill_noisy(s, 2.0, 0.0);
+        for (int32_t at = 0; at < width * s->rig.color.height; at++) {
+            const int32_t x = at % width + 2 * i;
+            const int32_t y = at / width;
+            const int32_t more = (x * x / 97 + y * y / 61) % 64;
+            memset(s->color + 4 * (size_t)at, s->color[4 * (size_t)at] + more, 3);
+        }
+        s->frame.sequence++;
+        grain_update(g, &s->frame);
+    }
+    assert_true(!g->is_known);
+    free(g);
+    scene_free(s);
+}
+
 /* ---- sharpness ------------------------------------------------------------------------------ */
 
 #define STRIPE 61.3 /* pixels, so that edges lie everywhere between pixels */
@@ -232,6 +256,7 @@ int main(void)
         cmocka_unit_test(bodies_are_as_noisy_as_what_is_around),
         cmocka_unit_test(no_noise_gives_none),
         cmocka_unit_test(a_moving_hand_is_no_noise),
+        cmocka_unit_test(a_moving_camera_tells_nothing),
         cmocka_unit_test(edges_are_as_wide_as_the_room_s),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
