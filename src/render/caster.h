@@ -29,6 +29,7 @@ typedef struct caster {
     float axis[3][3];  /* the body's axes in that frame */
     float half[3];     /* of the inner box */
     float round;       /* what the box is grown by */
+    float crease;      /* 1 = the rounded box is the body; 0 = it is about a hull */
     float light[3];    /* to the light: unit, picture camera frame */
     float to_light[3]; /* the same in the body's frame */
     float penumbra;    /* metres, at the body */
