@@ -123,7 +123,8 @@ rlf_result finish_create(int32_t width, int32_t height, finish *out)
     out->height = height;
     out->columns = (width + FINISH_TILE - 1) / FINISH_TILE;
     out->sharp = rlf_alloc_array((size_t)width * (size_t)height, 4);
-    out->marks = rlf_alloc_array((size_t)out->columns, (size_t)height);
+    out->words = (out->columns + 63) / 64;
+    out->marks = rlf_alloc_array((size_t)out->words * (size_t)height, sizeof(*out->marks));
     return out->sharp != NULL && out->marks != NULL ? RLF_OK : RLF_ERROR_MEMORY;
 }
 
@@ -131,7 +132,8 @@ void finish_destroy(finish *f)
 {
     rlf_free(f->sharp);
     rlf_free(f->marks);
-    f->sharp = f->marks = NULL;
+    f->sharp = NULL;
+    f->marks = NULL;
 }
 
 typedef struct finish_job {
@@ -142,6 +144,17 @@ typedef struct finish_job {
     bool is_blurred;
 } finish_job;
 
+static bool is_any(const uint8_t *matte, int32_t count)
+{
+    uint64_t any = 0;
+    uint64_t part[FINISH_TILE / 8] = {0};
+    memcpy(part, matte, (size_t)count);
+    for (int i = 0; i < FINISH_TILE / 8; i++) {
+        any |= part[i];
+    }
+    return any != 0;
+}
+
 static void mark_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     const finish_job *job = context;
@@ -149,43 +162,62 @@ static void mark_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     (void)worker;
     for (int32_t y = begin; y < end; y++) {
         const uint8_t *matte = rlf_u8_row(job->matte, y);
+        uint64_t *marks = f->marks + (ptrdiff_t)y * f->words;
+        memset(marks, 0, (size_t)f->words * sizeof(*marks));
         for (int32_t k = 0; k < f->columns; k++) {
-            uint32_t any = 0;
-            for (int32_t x = k * FINISH_TILE; x < (k + 1) * FINISH_TILE && x < f->width; x++) {
-                any |= matte[x];
+            const int32_t left = f->width - k * FINISH_TILE;
+            if (is_any(matte + k * FINISH_TILE, left < FINISH_TILE ? left : FINISH_TILE)) {
+                marks[k / 64] |= UINT64_C(1) << k % 64;
             }
-            f->marks[y * f->columns + k] = any != 0 ? 1 : 0;
         }
     }
 }
 
-/* True when bodies are within `reach` rows of a tile of row y, and beside it. */
-static bool is_near(const finish *f, int32_t y, int32_t k, int32_t reach)
+/* Marks of the 64 tiles of a word within `reach` rows of row y. */
+static uint64_t word_at(const finish *f, int32_t y, int32_t word, int32_t reach)
 {
-    bool any = false;
-    for (int32_t row = y - reach; row <= y + reach && !any; row++) {
-        for (int32_t i = k - 1; i <= k + 1 && row >= 0 && row < f->height; i++) {
-            any = any || (i >= 0 && i < f->columns && f->marks[row * f->columns + i] != 0);
+    uint64_t any = 0;
+    for (int32_t row = y - reach; row <= y + reach; row++) {
+        if (row >= 0 && row < f->height && word >= 0 && word < f->words) {
+            any |= f->marks[(ptrdiff_t)row * f->words + word];
         }
     }
     return any;
 }
 
-static void keep_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+/* Calls for each tile of row y that has bodies within `reach` rows, in it or beside it. */
+static void for_tiles(const finish_job *job, int32_t y, int32_t reach,
+                      void (*visit)(const finish_job *job, int32_t k, int32_t y))
 {
-    const finish_job *job = context;
     const finish *f = job->f;
-    (void)worker;
-    for (int32_t y = begin; y < end; y++) {
-        for (int32_t k = 0; k < f->columns; k++) {
-            const int32_t x0 = k * FINISH_TILE;
-            const int32_t left = f->width - x0;
-            const size_t count = (size_t)(left < FINISH_TILE ? left : FINISH_TILE);
-            if (is_near(f, y, k, 2 * TAPS)) {
-                memcpy(f->sharp + 4 * ((ptrdiff_t)y * f->width + x0),
-                       rlf_rgba8_row(job->image, y) + 4 * (ptrdiff_t)x0, 4 * count);
+    for (int32_t word = 0; word < f->words; word++) {
+        const uint64_t here = word_at(f, y, word, reach);
+        const uint64_t before = word_at(f, y, word - 1, reach) >> 63;
+        const uint64_t after = word_at(f, y, word + 1, reach) << 63;
+        const uint64_t near_by = here | here << 1 | here >> 1 | before | after;
+        for (int32_t k = 64 * word; near_by != 0 && k < 64 * (word + 1) && k < f->columns; k++) {
+            if ((near_by >> k % 64 & 1) != 0) {
+                visit(job, k, y);
             }
         }
+    }
+}
+
+static void keep_tile(const finish_job *job, int32_t k, int32_t y)
+{
+    const finish *f = job->f;
+    const int32_t x0 = k * FINISH_TILE;
+    const int32_t left = f->width - x0;
+    const size_t count = (size_t)(left < FINISH_TILE ? left : FINISH_TILE);
+    memcpy(f->sharp + 4 * ((ptrdiff_t)y * f->width + x0),
+           rlf_rgba8_row(job->image, y) + 4 * (ptrdiff_t)x0, 4 * count);
+}
+
+static void keep_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    for (int32_t y = begin; y < end; y++) {
+        for_tiles(context, y, 2 * TAPS, keep_tile);
     }
 }
 
@@ -286,33 +318,32 @@ RLF_KERNEL static void add_noise(const grain *g, const float (*tile)[3], int32_t
     }
 }
 
+static void finish_tile(const finish_job *job, int32_t k, int32_t y)
+{
+    const finish *f = job->f;
+    const int32_t x0 = k * FINISH_TILE;
+    const int32_t left = f->width - x0;
+    const int32_t count = left < FINISH_TILE ? left : FINISH_TILE;
+    uint8_t *pixels = rlf_rgba8_row(job->image, y) + 4 * (ptrdiff_t)x0;
+    const uint8_t *shown = rlf_u8_row(job->matte, y) + x0;
+    tile_row t;
+    if (job->is_blurred) {
+        read_tile(job, x0, y, &t);
+        blur(job, count, &t);
+        memcpy(pixels, t.blurred, 4 * (size_t)count);
+        shown = t.shown;
+    }
+    if (f->noise.is_known) {
+        add_noise(&f->noise, grain_row(&f->noise, y), x0 + f->noise.offset_x, shown, count, pixels);
+    }
+}
+
 static void finish_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     const finish_job *job = context;
-    const finish *f = job->f;
-    tile_row t;
     (void)worker;
     for (int32_t y = begin; y < end; y++) {
-        for (int32_t k = 0; k < f->columns; k++) {
-            const int32_t x0 = k * FINISH_TILE;
-            const int32_t left = f->width - x0;
-            const int32_t count = left < FINISH_TILE ? left : FINISH_TILE;
-            uint8_t *pixels = rlf_rgba8_row(job->image, y) + 4 * (ptrdiff_t)x0;
-            const uint8_t *shown = rlf_u8_row(job->matte, y) + x0;
-            if (!is_near(f, y, k, job->is_blurred ? TAPS : 0)) {
-                continue;
-            }
-            if (job->is_blurred) {
-                read_tile(job, x0, y, &t);
-                blur(job, count, &t);
-                memcpy(pixels, t.blurred, 4 * (size_t)count);
-                shown = t.shown;
-            }
-            if (f->noise.is_known) {
-                add_noise(&f->noise, grain_row(&f->noise, y), x0 + f->noise.offset_x, shown, count,
-                          pixels);
-            }
-        }
+        for_tiles(job, y, job->is_blurred ? TAPS : 0, finish_tile);
     }
 }
 

@@ -19,8 +19,8 @@ typedef struct finish {
     float width_px;            /* of the sharp ones, from 10 to 90 %; 0 = not known */
     uint64_t sequence;         /* of the last frame whose edges were looked at */
     uint8_t *sharp;            /* the picture before it was blurred, where it is */
-    uint8_t *marks;            /* of tiles of a row: bodies are there */
-    int32_t width, height, columns;
+    uint64_t *marks;           /* a bit for each tile of a row, 64 in a word: bodies are there */
+    int32_t width, height, columns, words;
 } finish;
 
 rlf_result finish_create(int32_t width, int32_t height, finish *out) RLF_INSIDE(finish_create);
