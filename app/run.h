@@ -120,7 +120,7 @@ void run_output_print_summary(const run_output *out, const char *how,
 /* Of the window alone. */
 typedef struct run_window_options {
     bool is_fullscreen, is_mirrored;
-    bool shows_overlay, hides_overlay, hides_panel;
+    bool shows_overlay, hides_overlay, hides_panel, has_light_panel;
     bool is_end_set; /* else by what is written: see run_window */
     int32_t monitor; /* from 1; 0 = the primary one */
 } run_window_options;

@@ -86,9 +86,9 @@ static void print_help(void)
         "  --headless            no window: as fast as the machine can, every frame\n"
         "  --window LIST         full (the picture alone), monitor=N (from 1), mirror, text=on, "
         "off\n"
-        "                        or full (also in full screen), panel=off, and after a recording\n"
-        "                        end=loop (default), hold (bodies fall on over the last frame) or\n"
-        "                        stop (default where frames are written or counted)\n"
+        "                        or full (also in full screen), panel=off or light, and after a\n"
+        "                        recording end=loop (default), hold (bodies fall on over the last\n"
+        "                        frame) or stop (default where frames are written or counted)\n"
         "  --frames N            stop after N frames\n");
     print_output_help();
     print_publish_help();
@@ -244,7 +244,8 @@ static bool take_panel(const char *text, void *out)
 {
     run_window_options *o = out;
     o->hides_panel = strcmp(text, "off") == 0;
-    return o->hides_panel || strcmp(text, "on") == 0;
+    o->has_light_panel = strcmp(text, "light") == 0;
+    return o->hides_panel || o->has_light_panel || strcmp(text, "on") == 0;
 }
 
 static bool take_occlusion(const char *text, void *out)
@@ -305,7 +306,7 @@ static const char *const *view_names(void)
             ROW_INT32("monitor", &(o)->window.monitor, 1, 16),                                     \
             ROW_FLAG("mirror", &(o)->window.is_mirrored),                                          \
             ROW_CHOICE("text", &(o)->window, take_overlay, "use on, off or full"),                 \
-            ROW_CHOICE("panel", &(o)->window, take_panel, "use on or off"),                        \
+            ROW_CHOICE("panel", &(o)->window, take_panel, "use on, light or off"),                 \
             ROW_CHOICE("end", (o), take_end, "use loop, hold or stop"), {0},                       \
     }
 

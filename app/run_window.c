@@ -275,6 +275,7 @@ rlf_result run_window(const run_options *o, session *s, run_output *output)
     viewer.hides_overlay = o->window.hides_overlay;
     viewer.overlay_everywhere = o->window.shows_overlay;
     viewer.hides_panel = o->window.hides_panel;
+    viewer.has_light_panel = o->window.has_light_panel;
     viewer.monitor = o->window.monitor;
     set_callbacks(&viewer, &stage);
     return rlf_window_run(s->pipeline, &viewer);

@@ -91,7 +91,7 @@ int32_t scene_list_played(rlf_window_choice *out, int32_t capacity)
         rlf_window_choice *c = &out[count++];
         (void)snprintf(c->source, sizeof(c->source), "%s", e->source);
         (void)snprintf(c->scene, sizeof(c->scene), "%s", e->path);
-        (void)snprintf(c->text, sizeof(c->text), "scene %.30s: %.56s", e->name, e->about);
+        (void)snprintf(c->text, sizeof(c->text), "scene %.30s: %.120s", e->name, e->about);
     }
     return count;
 }

@@ -28,7 +28,7 @@ extern "C" {
 typedef struct rlf_window_choice {
     char source[RLF_WINDOW_SOURCE_SIZE]; /* as rlf_source_open takes it */
     char scene[RLF_WINDOW_SOURCE_SIZE];  /* file to play it with; "" = the default one */
-    char text[96];                       /* what the window shows of it */
+    char text[160];                      /* what the window shows of it */
 } rlf_window_choice;
 
 /* Lists what there is to choose: fills at most RLF_WINDOW_CHOICES_MAX, returns how many. */
@@ -114,12 +114,13 @@ typedef struct rlf_window_def {
     int64_t frame_count;     /* stop after so many; -1 = when the user closes the window */
     bool use_gl;             /* draw with OpenGL; the soft renderer otherwise. Default true */
     bool avoid_software_gl;  /* the soft renderer where OpenGL itself runs on the CPU; false */
-    bool show_help;          /* list the keys at first; default true */
+    bool show_help;          /* tell at first how to begin, in three lines; default true */
     bool hides_overlay;      /* no text at first; default false */
     bool overlay_everywhere; /* text also in full screen; default false */
     bool is_fullscreen;      /* default false */
     bool is_mirrored;        /* as a mirror shows it; default false */
     bool hides_panel;        /* default false */
+    bool has_light_panel;    /* dark letters on a light panel; default false */
     int32_t monitor;         /* from 1; 0 = the primary one */
     rlf_view views[RLF_PIPELINE_VIEWS];       /* to start with */
     int32_t view_count;                       /* 1, or 2 side by side; default 1 */

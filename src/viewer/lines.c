@@ -17,12 +17,19 @@ static const char *const help_lines[] = {
     "drag a body: pick it up   Delete: the one under the mouse",
     "drop a recording, a scene or a model on the window",
     "P picture   E record   F full screen   Esc leaves it   Q quit",
-    "H keys   I all text   M panel   K place models of real things",
+    "H keys and figures   I all text   M panel   K place models of real things",
 };
 
 static const char *const place_lines[] = {
     "X cannot see that point   Backspace begin again   Enter 3 are enough",
     "arrows Page [ ] move it, shift finely   Tab next one   S save   K done",
+};
+
+/* Where nobody has thrown anything yet. */
+static const char *const hint_lines[] = {
+    "click the picture: throw a body; drag for speed",
+    "drag a body: carry it, let go to throw it",
+    "drop a recording, a scene or a model on the window",
 };
 
 static const char *state_text(const viewer *v)
@@ -74,28 +81,37 @@ static void add_news(viewer *v)
     }
 }
 
+static void add_texts(viewer *v, const char *const *texts, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        (void)snprintf(new_line(v), VIEWER_LINE_SIZE, "%s", texts[i]);
+    }
+}
+
+/* One quiet line, or the keys. */
 static void add_help(viewer *v)
 {
     if (v->place.is_on) {
         viewer_place_hint(&v->place, new_line(v));
-        (void)snprintf(new_line(v), VIEWER_LINE_SIZE, "%s", place_lines[0]);
-        (void)snprintf(new_line(v), VIEWER_LINE_SIZE, "%s", place_lines[1]);
+        add_texts(v, place_lines, sizeof place_lines / sizeof place_lines[0]);
         return;
     }
-    const int32_t count = v->shows_help ? (int32_t)(sizeof help_lines / sizeof help_lines[0]) : 0;
-    for (int32_t i = 0; i < count; i++) {
-        (void)snprintf(new_line(v), VIEWER_LINE_SIZE, "%s", help_lines[i]);
+    const bool has_hint = v->thrown_count == 0 && rlf_clock_ns() < v->hint_end_ns;
+    if (v->shows_help) {
+        add_texts(v, help_lines, sizeof help_lines / sizeof help_lines[0]);
+        return;
     }
-    if (!v->shows_help) {
-        (void)snprintf(new_line(v), VIEWER_LINE_SIZE, "H keys");
+    if (has_hint) {
+        add_texts(v, hint_lines, sizeof hint_lines / sizeof hint_lines[0]);
     }
+    (void)snprintf(new_line(v), VIEWER_LINE_SIZE, "H keys%s", state_text(v));
 }
 
 void viewer_make_lines(viewer *v)
 {
     const bool is_shown = viewer_is_overlay_shown(v);
     v->line_count = 0;
-    if (is_shown) {
+    if (is_shown && v->shows_help) {
         add_state(v);
     }
     if (is_shown || v->place.is_on) {

@@ -121,12 +121,16 @@ static void draw_seek_bar(viewer *v, int32_t width, int32_t height, int32_t scal
     }
     const int64_t count = rlf_playback_get_count(p);
     const int64_t index = rlf_playback_get_index(p) > 0 ? rlf_playback_get_index(p) : 0;
-    fill(&v->marks, (mark_rect){0, 0, w, h}, back);
+    if (v->shows_help) {
+        fill(&v->marks, (mark_rect){0, 0, w, h}, back);
+    }
     fill(&v->marks, (mark_rect){0, h - (h + 3) / 4, w, h}, left);
     fill(&v->marks, (mark_rect){0, h - (h + 3) / 4, (int32_t)(index * w / (count - 1)), h}, done);
     (void)snprintf(text, sizeof text, "%lld of %lld  %s", (long long)index, (long long)count - 1,
                    rlf_playback_name(rlf_playback_get_end(p)));
-    (void)rlf_draw_text(&v->marks, MARGIN * scale, (3 * h / 4 - 7 * scale) / 2, scale, text);
+    if (v->shows_help) {
+        (void)rlf_draw_text(&v->marks, MARGIN * scale, (3 * h / 4 - 7 * scale) / 2, scale, text);
+    }
     rlf_gl_presenter_draw_over(v->presenter, &v->marks, r.x0, r.y0, height);
 }
 
@@ -166,7 +170,7 @@ void viewer_draw_marks(viewer *v, int32_t width, int32_t height, int32_t scale)
 {
     const bool has_bar = has_seek_bar(v);
     const int32_t bottom = has_bar ? seek_rect(width, height).y0 - MARGIN : height;
-    if (v->window.panel_width == 0) { /* the panel has a plot of its own */
+    if (v->shows_help && v->window.panel_width == 0) { /* the panel has a plot of its own */
         draw_plot(v, width, height, bottom, scale);
     }
     draw_view_legend(v, width, height, bottom, scale);

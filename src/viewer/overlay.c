@@ -91,7 +91,7 @@ void viewer_draw_overlay(viewer *v, int32_t width, int32_t height)
     viewer_add_messages(v, columns < COLUMNS_MIN   ? COLUMNS_MIN
                            : columns > COLUMNS_MAX ? COLUMNS_MAX
                                                    : columns);
-    if (v->line_count > 0) {
+    if (v->line_count > 0 && v->panel == NULL) { /* else that writes them */
         draw_text(v, width, height, scale);
     }
     if (viewer_is_overlay_shown(v)) {

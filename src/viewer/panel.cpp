@@ -8,49 +8,24 @@
 #include <stdio.h>
 #include <string.h>
 
-#define MESSAGE_ROWS 6
+#define MESSAGE_ROWS 5
 
 bool viewer_panel_is_built(void)
 {
     return true;
 }
 
-static void set_style(float scale)
-{
-    ImGuiStyle &style = ImGui::GetStyle();
-    ImGui::StyleColorsDark();
-    style.WindowRounding = 0.0f;
-    style.WindowBorderSize = 0.0f;
-    style.ScaleAllSizes(scale);
-    ImGui::GetIO().FontGlobalScale = scale;
-    ImGui::GetIO().IniFilename = nullptr; /* nothing is written where the user works */
-}
-
 viewer_panel *viewer_panel_create(struct viewer *v)
 {
-    GLFWwindow *window = v->window.handle;
-    if (glfwGetWindowAttrib(window, GLFW_CLIENT_API) != GLFW_OPENGL_API) {
-        return nullptr; /* imgui's loader knows desktop OpenGL alone */
-    }
     viewer_panel *p = (viewer_panel *)rlf_alloc(sizeof *p);
-    if (p == nullptr) {
-        return nullptr;
-    }
-    memset(p, 0, sizeof *p);
-    p->v = v;
-    p->down = rlf_vec3_make(0.0, 1.0, 0.0);
-    float scale_y = 1.0f;
-    glfwGetWindowContentScale(window, &p->scale, &scale_y);
-    p->scale = p->scale >= 1.0f && p->scale <= 4.0f ? p->scale : 1.0f;
-    ImGui::CreateContext();
-    ImGui_ImplGlfw_InitForOpenGL(window, true);
-    if (!ImGui_ImplOpenGL3_Init("#version 330")) {
-        ImGui_ImplGlfw_Shutdown();
-        ImGui::DestroyContext();
+    if (p != nullptr && !panel_context_open(v->window.handle)) {
         rlf_free(p);
-        return nullptr;
+        p = nullptr;
     }
-    set_style(p->scale);
+    if (p != nullptr) {
+        p->v = v;
+        p->down = rlf_vec3_make(0.0, 1.0, 0.0);
+    }
     return p;
 }
 
@@ -59,9 +34,7 @@ void viewer_panel_destroy(viewer_panel **panel)
     if (*panel == nullptr) {
         return;
     }
-    ImGui_ImplOpenGL3_Shutdown();
-    ImGui_ImplGlfw_Shutdown();
-    ImGui::DestroyContext();
+    panel_context_close();
     rlf_free(*panel);
     *panel = nullptr;
 }
@@ -73,7 +46,7 @@ int32_t viewer_panel_get_width(const viewer_panel *panel)
         return 0;
     }
     viewer_window_get_size(&panel->v->window, &width, &height);
-    const int32_t own = (int32_t)(VIEWER_PANEL_WIDTH * panel->scale);
+    const int32_t own = (int32_t)(VIEWER_PANEL_WIDTH * (panel->style.scale > 0.0f ? panel->style.scale : 1.0f));
     return width >= 2 * own && height >= 100 ? own : 0;
 }
 
@@ -99,7 +72,8 @@ static void draw_messages(viewer_panel *p)
     panel_note(v->message_count > 0 ? "Messages, the newest first" : "Messages: none yet");
     for (int32_t i = 0; i < v->message_count; i++) {
         if (v->messages[i].is_error) {
-            ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 0.5f, 0.4f, 1.0f));
+            ImGui::PushStyleColor(ImGuiCol_Text, v->is_light ? ImVec4(0.75f, 0.1f, 0.0f, 1.0f)
+                                                             : ImVec4(1.0f, 0.5f, 0.4f, 1.0f));
             ImGui::TextWrapped("%s", v->messages[i].text);
             ImGui::PopStyleColor();
         } else {
@@ -157,7 +131,9 @@ static void draw_all(viewer_panel *p)
     for (const auto &part : parts) {
         const ImGuiTreeNodeFlags flags = part.is_open ? ImGuiTreeNodeFlags_DefaultOpen : 0;
         if (ImGui::CollapsingHeader(part.title, flags)) {
+            ImGui::PushID(part.title);
             part.draw(p);
+            ImGui::PopID();
         }
     }
 }
@@ -176,20 +152,10 @@ static void fulfil(viewer_panel *p)
     }
 }
 
-void viewer_panel_draw(viewer_panel *p)
+static void draw_controls(viewer_panel *p, int32_t own)
 {
     int32_t width, height;
-    const int32_t own = viewer_panel_get_width(p);
     viewer_window_get_size(&p->v->window, &width, &height);
-    if (own == 0) {
-        p->v->window.is_list_open = p->v->window.is_key_taken = false;
-        return;
-    }
-    ImGui_ImplOpenGL3_NewFrame();
-    ImGui_ImplGlfw_NewFrame();
-    press_taps(p, true);
-    lead_list(p);
-    ImGui::NewFrame();
     ImGui::SetNextWindowPos(ImVec2((float)(width - own), 0.0f));
     ImGui::SetNextWindowSize(ImVec2((float)own, (float)height));
     ImGui::Begin("panel", nullptr,
@@ -200,17 +166,30 @@ void viewer_panel_draw(viewer_panel *p)
     /* Tab leads from one field to the next, but into the panel only the mouse leads. */
     ImGui::BeginChild("controls", ImVec2(0.0f, -rest), false,
                       p->v->window.is_key_taken ? 0 : ImGuiWindowFlags_NoNavInputs);
-    ImGui::PushItemWidth(0.52f * (float)own);
     draw_all(p);
-    ImGui::PopItemWidth();
     ImGui::EndChild();
     draw_messages(p);
     ImGui::End();
+}
+
+void viewer_panel_draw(viewer_panel *p)
+{
+    viewer_window *window = &p->v->window;
+    const int32_t own = window->panel_width;
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    panel_set_style(&p->style, window->handle, p->v->is_light);
+    press_taps(p, true);
+    lead_list(p);
+    ImGui::NewFrame();
+    if (own > 0) {
+        draw_controls(p, own);
+    }
+    panel_write_lines(p);
     ImGui::Render();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     press_taps(p, false);
-    viewer_window *window = &p->v->window;
-    window->is_list_open = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
-    window->is_key_taken = window->is_list_open || ImGui::IsAnyItemActive();
+    window->is_list_open = own > 0 && ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+    window->is_key_taken = window->is_list_open || (own > 0 && ImGui::IsAnyItemActive());
     fulfil(p);
 }

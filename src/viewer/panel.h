@@ -3,6 +3,8 @@
 #define RLF_VIEWER_PANEL_H
 
 #include "base/messages.h"
+#include "relief/window.h"
+#include "viewer/window.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -25,10 +27,19 @@ bool viewer_panel_is_built(void);
 /* NULL: this build has none, or this context cannot have one. After the window is open. */
 viewer_panel *viewer_panel_create(struct viewer *v);
 void viewer_panel_destroy(viewer_panel **panel);
-/* Draws it at the right of the window and does what its user asks for. Before the swap. */
+/* Draws it at the right of the window, where that has room for it, and does what its user asks for;
+ * writes the viewer's lines over the picture in its own typeface. Before the swap. */
 void viewer_panel_draw(viewer_panel *panel);
 /* Part of the window that it takes, in the unit of mouse positions. */
 int32_t viewer_panel_get_width(const viewer_panel *panel);
+
+/* The start page's list, over what was drawn in the window. NULL: as of the panel. */
+typedef struct viewer_menu viewer_menu;
+viewer_menu *viewer_menu_create(viewer_window *window);
+void viewer_menu_destroy(viewer_menu **menu);
+/* Returns the one that was clicked, -1 = none. `selected` is in view. Before the swap. */
+int32_t viewer_menu_draw(viewer_menu *menu, const rlf_window_choice *choices, int32_t count,
+                         int32_t selected);
 
 #ifdef __cplusplus
 }

@@ -15,7 +15,8 @@ static void remake_model(viewer_panel *p)
 static void draw_shape(viewer_panel *p)
 {
     viewer_throw_def *thrown = &p->v->thrown;
-    if (!ImGui::BeginCombo("shape", viewer_throw_name(thrown->kind))) {
+    panel_label("Shape", "of what a click throws");
+    if (!ImGui::BeginCombo("##shape", viewer_throw_name(thrown->kind))) {
         return;
     }
     const int count = thrown->model[0] != '\0' ? VIEWER_THROW_KINDS : VIEWER_THROW_MODEL;
@@ -47,17 +48,20 @@ void panel_draw_bodies(viewer_panel *p)
     float size_cm = (float)(100.0 * thrown->size_m);
     float restitution = (float)thrown->restitution;
     draw_shape(p);
-    if (ImGui::SliderFloat("size, cm", &size_cm, (float)(100.0 * VIEWER_THROW_SIZE_MIN),
-                           (float)(100.0 * VIEWER_THROW_SIZE_MAX), "%.0f")) {
+    panel_label("Size", nullptr);
+    if (ImGui::SliderFloat("##size", &size_cm, (float)(100.0 * VIEWER_THROW_SIZE_MIN),
+                           (float)(100.0 * VIEWER_THROW_SIZE_MAX), "%.0f cm")) {
         thrown->size_m = rlf_clamp(0.01 * size_cm, VIEWER_THROW_SIZE_MIN, VIEWER_THROW_SIZE_MAX);
     }
     if (ImGui::IsItemDeactivatedAfterEdit()) {
         remake_model(p);
     }
-    if (ImGui::SliderFloat("bounce, 0 to 1", &restitution, 0.0f, 1.0f, "%.2f")) {
+    panel_label("Bounce", "restitution: 0 stays where it falls, 1 loses no speed");
+    if (ImGui::SliderFloat("##bounce", &restitution, 0.0f, 1.0f, "%.2f")) {
         thrown->restitution = rlf_clamp(restitution, 0.0, 1.0);
     }
-    if (ImGui::InputTextWithHint("model", ".glb, .gltf, .obj", p->model, sizeof p->model,
+    panel_label("Model", "a file to throw; you can also drop it on the window");
+    if (ImGui::InputTextWithHint("##model", ".glb, .gltf, .obj", p->model, sizeof p->model,
                                  ImGuiInputTextFlags_EnterReturnsTrue) &&
         p->model[0] != '\0') {
         panel_ask_for(p, PANEL_MODEL, p->model);
@@ -81,13 +85,14 @@ void panel_draw_gravity(viewer_panel *p)
     const double length = rlf_length(now);
     float strength = (float)length;
     p->down = length > 1e-6 ? rlf_normalize(now) : p->down;
-    if (ImGui::SliderFloat("m/s^2", &strength, 0.0f, 25.0f, "%.2f")) {
+    panel_label("Strength", nullptr);
+    if (ImGui::SliderFloat("##strength", &strength, 0.0f, 25.0f, "%.2f m/s2")) {
         set_gravity(p, rlf_clamp(strength, 0.0, 25.0));
     }
     const struct {
         const char *name;
         double strength;
-    } places[] = {{"none", 0.0}, {"moon", 1.62}, {"earth", 9.81}, {"turned", -9.81}};
+    } places[] = {{"None", 0.0}, {"Moon", 1.62}, {"Earth", 9.81}, {"Turned", -9.81}};
     for (const auto &place : places) {
         if (ImGui::Button(place.name)) {
             set_gravity(p, place.strength);

@@ -24,6 +24,27 @@ void viewer_panel_draw(viewer_panel *panel)
     (void)panel;
 }
 
+viewer_menu *viewer_menu_create(viewer_window *window)
+{
+    (void)window;
+    return NULL;
+}
+
+void viewer_menu_destroy(viewer_menu **menu)
+{
+    *menu = NULL;
+}
+
+int32_t viewer_menu_draw(viewer_menu *menu, const rlf_window_choice *choices, int32_t count,
+                         int32_t selected)
+{
+    (void)menu;
+    (void)choices;
+    (void)count;
+    (void)selected;
+    return -1;
+}
+
 int32_t viewer_panel_get_width(const viewer_panel *panel)
 {
     (void)panel;

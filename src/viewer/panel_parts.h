@@ -11,9 +11,15 @@ extern "C" {
 /* Something to do once the picture is drawn: it may replace what the parts look at. */
 enum panel_request { PANEL_NOTHING, PANEL_SOURCE, PANEL_SCENE, PANEL_SETTING, PANEL_MODEL };
 
+/* What the looks were made for. */
+struct panel_style {
+    float scale; /* of the typeface; 0 = none yet */
+    bool is_light;
+};
+
 struct viewer_panel {
     viewer *v;
-    float scale; /* of fine screens */
+    panel_style style;
     rlf_window_choice sources[RLF_WINDOW_CHOICES_MAX], scenes[RLF_WINDOW_CHOICES_MAX];
     int source_count, scene_count;
     bool has_lists;
@@ -27,6 +33,22 @@ struct viewer_panel {
 void panel_ask_for(viewer_panel *p, panel_request request, const char *text);
 /* Grey text in as many lines as it takes. */
 void panel_note(const char *text);
+
+/* panel_style.cpp: a context of imgui for a window, one at a time; false where it cannot have one.
+ */
+bool panel_context_open(GLFWwindow *window);
+void panel_context_close(void);
+/* Typeface, colours and sizes for the window as it is now. Between the back ends' new frame and
+ * imgui's. */
+void panel_set_style(panel_style *style, GLFWwindow *window, bool is_light);
+/* A name at the left; the control that follows takes the rest of the line. `tip` is shown under the
+ * mouse; NULL = none. */
+void panel_label(const char *name, const char *tip);
+/* Of what was drawn last. */
+void panel_tip(const char *text);
+
+/* panel_lines.cpp */
+void panel_write_lines(viewer_panel *p);
 
 void panel_draw_source(viewer_panel *p);
 void panel_draw_bodies(viewer_panel *p);

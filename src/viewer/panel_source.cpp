@@ -16,7 +16,11 @@ static void look(viewer_panel *p)
 static void draw_choices(viewer_panel *p, const char *label, const char *now,
                          const rlf_window_choice *choices, int count, panel_request request)
 {
-    if (!ImGui::BeginCombo(label, now)) {
+    panel_label(label, nullptr);
+    ImGui::PushID(label);
+    const bool is_open = ImGui::BeginCombo("##list", now);
+    ImGui::PopID();
+    if (!is_open) {
         return;
     }
     if (ImGui::IsWindowAppearing()) {
@@ -35,9 +39,12 @@ static void draw_choices(viewer_panel *p, const char *label, const char *now,
 static void draw_path(viewer_panel *p, const char *label, const char *hint, char *text,
                       panel_request request)
 {
-    if (ImGui::InputTextWithHint(label, hint, text, RLF_WINDOW_SOURCE_SIZE,
-                                 ImGuiInputTextFlags_EnterReturnsTrue) &&
-        text[0] != '\0') {
+    panel_label(label, "type it and press Enter, or drop it on the window");
+    ImGui::PushID(label);
+    const bool is_entered = ImGui::InputTextWithHint("##path", hint, text, RLF_WINDOW_SOURCE_SIZE,
+                                                     ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::PopID();
+    if (is_entered && text[0] != '\0') {
         panel_ask_for(p, request, text);
     }
 }
@@ -64,13 +71,17 @@ static void draw_playing(viewer_panel *p)
         return;
     }
     int end = rlf_playback_get_end(played);
-    if (ImGui::Combo("at the end", &end, ends, 3)) {
+    panel_label("At the end", "of the recording");
+    if (ImGui::Combo("##end", &end, ends, 3)) {
         viewer_set_end(v, (rlf_playback_end)end);
     }
     const int64_t count = rlf_playback_get_count(played);
     int index = (int)rlf_playback_get_index(played);
-    if (count > 1 && ImGui::SliderInt("frame", &index, 0, (int)count - 1)) {
-        viewer_seek_to(v, (double)index / (double)(count - 1));
+    if (count > 1) {
+        panel_label("Frame", nullptr);
+        if (ImGui::SliderInt("##frame", &index, 0, (int)count - 1)) {
+            viewer_seek_to(v, (double)index / (double)(count - 1));
+        }
     }
 }
 
@@ -81,11 +92,11 @@ void panel_draw_source(viewer_panel *p)
     if (!p->has_lists) {
         look(p);
     }
-    draw_choices(p, "source", name_of(stage->source_name), p->sources, p->source_count,
+    draw_choices(p, "Source", name_of(stage->source_name), p->sources, p->source_count,
                  PANEL_SOURCE);
-    draw_path(p, "other source", "file, folder, camera", p->source, PANEL_SOURCE);
-    draw_choices(p, "scene", scene, p->scenes, p->scene_count, PANEL_SCENE);
-    draw_path(p, "other scene", "scene.json", p->scene, PANEL_SCENE);
+    draw_path(p, "Other source", "file, folder, camera", p->source, PANEL_SOURCE);
+    draw_choices(p, "Scene", scene, p->scenes, p->scene_count, PANEL_SCENE);
+    draw_path(p, "Other scene", "scene.json", p->scene, PANEL_SCENE);
     draw_playing(p);
 }
 

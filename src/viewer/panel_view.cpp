@@ -5,6 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define PLOT_HEIGHT 56.0f /* at 100 % scale */
+#define PLOT_MS 66.7f     /* that the plot's height stands for */
+
+static const ImU32 stage_colours[VIEWER_PLOT_STAGES] = {
+    IM_COL32(90, 140, 240, 255), IM_COL32(240, 175, 60, 255), IM_COL32(225, 90, 80, 255),
+    IM_COL32(95, 190, 110, 255)};
+
 static void draw_legend(const viewer *v)
 {
     const rlf_rig *rig = &rlf_source_get_info(v->stage.source)->rig;
@@ -25,7 +32,8 @@ static void draw_legend(const viewer *v)
 void panel_draw_view(viewer_panel *p)
 {
     viewer *v = p->v;
-    if (ImGui::BeginCombo("shows", rlf_view_name(v->view))) {
+    panel_label("Shows", nullptr);
+    if (ImGui::BeginCombo("##shows", rlf_view_name(v->view))) {
         for (int i = 0; i < RLF_VIEW_COUNT; i++) {
             if (ImGui::Selectable(rlf_view_name((rlf_view)i), i == (int)v->view)) {
                 viewer_set_view(v, (rlf_view)i);
@@ -36,14 +44,19 @@ void panel_draw_view(viewer_panel *p)
     if (v->stage.source != nullptr) {
         draw_legend(v);
     }
-    if (ImGui::Checkbox("beside the camera", &v->is_beside)) {
+    if (ImGui::Checkbox("Camera beside it", &v->is_beside)) {
         viewer_set_view(v, v->view);
     }
-    ImGui::Checkbox("mirror", &v->is_mirrored);
     ImGui::SameLine();
-    ImGui::Checkbox("text", &v->shows_overlay);
+    ImGui::Checkbox("Mirror", &v->is_mirrored);
+    ImGui::Checkbox("Text", &v->shows_overlay);
+    panel_tip("over the picture");
     ImGui::SameLine();
-    ImGui::Checkbox("keys", &v->shows_help);
+    ImGui::Checkbox("Keys", &v->shows_help);
+    panel_tip("what every key does, and the figures of this frame");
+    ImGui::SameLine();
+    ImGui::Checkbox("Light", &v->is_light);
+    panel_tip("dark letters on a light panel");
 }
 
 static void wish_setting(viewer_panel *p, const rlf_window_setting *s, const char *value)
@@ -55,7 +68,7 @@ static void wish_setting(viewer_panel *p, const rlf_window_setting *s, const cha
 
 static void draw_words(viewer_panel *p, const rlf_window_setting *s)
 {
-    if (!ImGui::BeginCombo(s->name, s->value)) {
+    if (!ImGui::BeginCombo("##value", s->value)) {
         return;
     }
     for (int i = 0; s->words[i] != nullptr; i++) {
@@ -68,9 +81,10 @@ static void draw_words(viewer_panel *p, const rlf_window_setting *s)
 
 static void draw_setting(viewer_panel *p, const rlf_window_setting *s)
 {
+    panel_label(s->name, s->meaning);
     if (s->is_switch) {
         bool is_on = strcmp(s->value, "on") == 0;
-        if (ImGui::Checkbox(s->name, &is_on)) {
+        if (ImGui::Checkbox("##value", &is_on)) {
             wish_setting(p, s, is_on ? "on" : "off");
         }
     } else if (s->words != nullptr) {
@@ -78,11 +92,12 @@ static void draw_setting(viewer_panel *p, const rlf_window_setting *s)
     } else {
         char value[32];
         snprintf(value, sizeof value, "%s", s->value);
-        if (ImGui::InputText(s->name, value, sizeof value, ImGuiInputTextFlags_EnterReturnsTrue)) {
+        if (ImGui::InputText("##value", value, sizeof value,
+                             ImGuiInputTextFlags_EnterReturnsTrue)) {
             wish_setting(p, s, value);
         }
     }
-    panel_note(s->meaning);
+    panel_tip(s->meaning);
     if (s->need != nullptr) {
         char text[160];
         snprintf(text, sizeof text, "no effect now: needs %s", s->need);
@@ -109,19 +124,54 @@ void panel_draw_settings(viewer_panel *p)
     }
 }
 
+/* Each frame is a bar of the stages' times, the oldest at the left, up to twice a camera's period. */
+static void draw_plot(const viewer_panel *p)
+{
+    const viewer *v = p->v;
+    const ImVec2 size(ImGui::GetContentRegionAvail().x, PLOT_HEIGHT * p->style.scale);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(at, ImVec2(at.x + size.x, at.y + size.y), ImGui::GetColorU32(ImGuiCol_FrameBg));
+    const float width = size.x / VIEWER_PLOT_FRAMES;
+    for (int i = 0; i < v->plot_count; i++) {
+        float base = at.y + size.y;
+        for (int k = 0; k < VIEWER_PLOT_STAGES; k++) {
+            const float top = base - size.y * v->plot[i][k] / PLOT_MS;
+            const float x = at.x + (float)i * width;
+            list->AddRectFilled(ImVec2(x, top > at.y ? top : at.y), ImVec2(x + width, base),
+                                stage_colours[k]);
+            base = top > at.y ? top : at.y;
+        }
+    }
+    const float middle = at.y + 0.5f * size.y;
+    list->AddLine(ImVec2(at.x, middle), ImVec2(at.x + size.x, middle),
+                  ImGui::GetColorU32(ImGuiCol_TextDisabled));
+    ImGui::Dummy(size);
+    panel_tip("the last 120 frames; the line is a camera's period, 33 ms");
+}
+
+static void draw_time(const char *name, double ms, ImU32 colour)
+{
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float side = 0.7f * ImGui::GetTextLineHeight(), down = 0.2f * ImGui::GetTextLineHeight();
+    ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(at.x, at.y + down),
+                                              ImVec2(at.x + side, at.y + down + side), colour);
+    ImGui::Dummy(ImVec2(side, side));
+    ImGui::SameLine();
+    ImGui::TextUnformatted(name);
+    ImGui::SameLine(0.36f * ImGui::GetWindowWidth());
+    ImGui::Text("%.1f ms", ms);
+}
+
 void panel_draw_times(viewer_panel *p)
 {
     const viewer *v = p->v;
     const rlf_stage_times *t = &v->times;
-    float sums[VIEWER_PLOT_FRAMES];
-    for (int i = 0; i < v->plot_count; i++) {
-        const float *values = v->plot[i];
-        sums[i] = values[0] + values[1] + values[2] + values[3];
-    }
-    ImGui::Text("%.1f frames per second", v->fps);
-    ImGui::Text("capture %5.1f   surface %5.1f ms", t->capture_ms, t->surface_ms);
-    ImGui::Text("physics %5.1f   render  %5.1f ms", t->physics_ms, t->render_ms);
-    ImGui::Text("latency %5.1f   panel   %5.2f ms", v->latency_ms, v->panel_ms);
-    ImGui::PlotLines("##sum", sums, v->plot_count, 0, "all stages, 0 to 66 ms", 0.0f, 66.7f,
-                     ImVec2(ImGui::GetContentRegionAvail().x, 48.0f * p->scale));
+    ImGui::Text("%.1f frames a second, latency %.0f ms", v->fps, v->latency_ms);
+    draw_time("Capture", t->capture_ms, stage_colours[0]);
+    draw_time("Surface", t->surface_ms, stage_colours[1]);
+    draw_time("Physics", t->physics_ms, stage_colours[2]);
+    draw_time("Render", t->render_ms, stage_colours[3]);
+    draw_time("Panel", v->panel_ms, 0);
+    draw_plot(p);
 }

@@ -5,6 +5,7 @@
 #include "relief/pipeline.h"
 #include "relief/synthetic.h"
 #include "viewer/mouse.h"
+#include "viewer/panel.h"
 #include "viewer/window.h"
 
 #include <stdio.h>
@@ -30,6 +31,7 @@ typedef struct start_page {
     int32_t chosen;                 /* -1 = none yet */
     char lines[LINES_MAX][LINE_SIZE];
     viewer_window window;
+    viewer_menu *menu; /* NULL = lines of text in the picture */
     rlf_gl_presenter *presenter;
     rlf_source *source;
     rlf_pipeline *pipeline;
@@ -69,6 +71,9 @@ static void scroll(start_page *page)
 
 static rlf_result draw(start_page *page)
 {
+    if (page->menu != NULL) {
+        return RLF_OK; /* present() draws it over the room */
+    }
     scroll(page);
     const char *pointers[LINES_MAX];
     int32_t count = 0;
@@ -91,6 +96,14 @@ static rlf_result draw(start_page *page)
     return rlf_pipeline_redraw(page->pipeline, &page->frame);
 }
 
+static void choose(start_page *page, int32_t index)
+{
+    if (index >= 0 && index < page->count) {
+        page->selected = index;
+        page->chosen = index;
+    }
+}
+
 static void present(start_page *page)
 {
     int32_t width;
@@ -98,15 +111,10 @@ static void present(start_page *page)
     viewer_window_get_framebuffer_size(&page->window, &width, &height);
     if (width > 0 && height > 0) {
         rlf_gl_presenter_draw(page->presenter, &page->frame.render.image, width, height);
+        if (page->menu != NULL) {
+            choose(page, viewer_menu_draw(page->menu, page->choices, page->count, page->selected));
+        }
         viewer_window_swap(&page->window);
-    }
-}
-
-static void choose(start_page *page, int32_t index)
-{
-    if (index >= 0 && index < page->count) {
-        page->selected = index;
-        page->chosen = index;
     }
 }
 
@@ -134,14 +142,15 @@ static bool run_commands(start_page *page)
     if (commands.leave) {
         viewer_window_leave(&page->window);
     }
-    const int32_t step = commands.nudge_y - (int32_t)commands.zoom;
+    const int32_t turned = page->menu == NULL ? (int32_t)commands.zoom : 0;
+    const int32_t step = commands.nudge_y - turned;
     const int32_t selected = page->selected + step;
     page->selected = (int32_t)rlf_clamp(selected, 0, page->count - 1);
     choose(page, commands.view);
     if (commands.solve_points) {
         choose(page, page->selected);
     }
-    if (commands.throw_body) {
+    if (commands.throw_body && page->menu == NULL) {
         click(page, commands.throw_x, commands.throw_y);
     }
     return commands.restart || commands.refresh || step != 0;
@@ -186,7 +195,9 @@ rlf_result rlf_window_choose(rlf_window_list_fn list, void *context,
     result = result == RLF_OK ? open_room(&page) : result;
     if (result == RLF_OK) {
         look_again(&page);
+        page.menu = viewer_menu_create(&page.window);
         result = run(&page, interrupted);
+        viewer_menu_destroy(&page.menu);
     }
     if (result == RLF_OK) {
         *out = page.choices[page.chosen];

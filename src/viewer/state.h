@@ -38,6 +38,8 @@ typedef struct viewer {
     bool is_step_due, is_redraw_due, is_present_due;
     bool shows_overlay, shows_overlay_in_full; /* in a window; in full screen */
     bool is_mirrored, is_seeking;
+    bool is_light;       /* the panel, not the picture */
+    int64_t hint_end_ns; /* of the lines that tell how to begin */
     rlf_view view;
     bool is_beside; /* the camera's picture is beside the view */
     rlf_orbit orbit;

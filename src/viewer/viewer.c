@@ -9,7 +9,8 @@
 #define WINDOW_WIDTH_MIN 960 /* smaller pictures start enlarged */
 #define GAP_S (1.0 / 30.0)   /* between frames, before two are known */
 #define GAP_MAX_S 0.25
-#define SMOOTHING 0.1 /* of figures on screen: weight of the newest frame */
+#define HINT_NS 15000000000 /* three lines are read three times, and the room is looked at */
+#define SMOOTHING 0.1       /* of figures on screen: weight of the newest frame */
 
 rlf_window_def rlf_window_def_default(void)
 {
@@ -148,6 +149,8 @@ static void draw_panel(viewer *v)
     v->window.follows_mouse = is_shown;
     if (!is_shown) {
         v->window.is_list_open = v->window.is_key_taken = false;
+    }
+    if (v->panel == NULL || (!is_shown && v->line_count == 0)) {
         return;
     }
     const int64_t before = rlf_clock_ns();
@@ -254,8 +257,8 @@ static void begin(viewer *v, rlf_pipeline *pipeline, const rlf_window_def *optio
     v->shows_overlay = !options->hides_overlay;
     v->shows_overlay_in_full = options->overlay_everywhere;
     v->shows_panel = !options->hides_panel;
-    /* The panel says more, and hides nothing of the picture. */
-    v->shows_help = options->show_help && !(v->shows_panel && viewer_panel_is_built());
+    v->hint_end_ns = options->show_help ? rlf_clock_ns() + HINT_NS : 0;
+    v->is_light = options->has_light_panel;
     v->is_mirrored = options->is_mirrored;
     v->view = options->views[options->view_count > 1 ? options->view_count - 1 : 0];
     v->is_beside = options->view_count == 2 && options->views[0] == RLF_VIEW_CAMERA;
