@@ -133,15 +133,16 @@ typedef struct rlf_compositor_def {
     rlf_occlusion occlusion;    /* default DEPTH */
     rlf_vec3 light_direction;   /* from the light into the scene, camera frame; unit. default
                                    (0.3, 0.8, 0.5) normalised */
-    float light_color[3];       /* shares of the bodies' colours that it shows, 0..1; default 1 */
+    float light_color[3];       /* sRGB of a white body in full light, 0..1; default 1 */
     bool estimates_light;       /* bodies get darker and tinted as the camera's picture is, over
                                    about a second; default false */
     bool estimates_light_direction; /* by the shading of what is seen; where that does not tell, it
                                        is light_direction; default false */
     bool enable_real_shade;         /* with occlusion DEPTH and SOFT real things keep the light from
                                        bodies, too; default true */
-    bool enable_real_ambient;       /* with the same, real surfaces close to a body darken it where
-                                       it faces them; default true */
+    bool enable_real_ambient;       /* with the same, bodies have the light of their place: what the
+                                       picture shows shines on them, and real surfaces close to a
+                                       body darken it where it faces them; default true */
     bool enable_overlay;            /* text lines over the picture; default false */
     rlf_pool *pool;                 /* borrowed; NULL = one thread */
 } rlf_compositor_def;

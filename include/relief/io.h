@@ -149,9 +149,9 @@ RLF_API rlf_result rlf_scene_save_known(const char *scene_path, const rlf_known_
  * ----------------------------------------------------------------------------------------- */
 
 /* Reads a model from .gltf, .glb (glTF 2.0) or .obj, with the files that it names: geometry, base
- * colours and base colour textures (PNG, JPEG). A texture that cannot be had is left out with one
- * warning. glTF, which is y up, is turned half round x, so that it stands upright here and faces
- * the camera; OBJ is taken as it is. Destroy with
+ * colours and base colour textures (PNG, JPEG), factors of metalness and roughness. A texture that
+ * cannot be had is left out with one warning. glTF, which is y up, is turned half round x, so that
+ * it stands upright here and faces the camera; OBJ is taken as it is. Destroy with
  * rlf_model_destroy. Thread-safety: safe, one at a time. */
 RLF_API rlf_result rlf_model_load(const char *path, rlf_model **out);
 

@@ -37,6 +37,9 @@ typedef struct rlf_model_part {
     int32_t first_triangle, triangle_count; /* in the model's list; may be none */
     float color[3];                         /* base colour, sRGB 0..1: it multiplies the texture */
     int32_t texture;                        /* -1 = none */
+    float metallic; /* 0..1: 0 = paint, rubber, wood; 1 = bare metal, whose colour is what it
+                       mirrors */
+    float gloss;    /* 0..1: 1 minus the roughness of glTF; 0 = matt */
 } rlf_model_part;
 
 /* RGBA of a texture and of its smaller levels, one after the other without padding: a level has

@@ -3,6 +3,8 @@
  * how long the bytes take that any renderer must move. Prints one row each; with --json FILE writes
  * them too. */
 #include "model_sample.h"
+#include "render/finish.h"
+#include "render/probe.h"
 #include "render_scene.h"
 
 #include <stdio.h>
@@ -116,6 +118,67 @@ static bool enlarge(render_scene *s)
     return true;
 }
 
+/* Light by place of two bodies. */
+static void measure_probes(report *r, const render_scene *s)
+{
+    static const float white[3] = {1.0f, 1.0f, 1.0f};
+    probe_set *set = calloc(1, sizeof(*set));
+    const probe_def def = {.rig = &s->rig,
+                           .lamp = white,
+                           .T_picture_depth = s->rig.T_color_depth,
+                           .T_picture_world = s->rig.T_color_depth,
+                           .is_on = true};
+    double times[REPEATS] = {0};
+    for (int i = 0; i < REPEATS && set != NULL; i++) {
+        int64_t start = rlf_clock_ns();
+        if (i == 0) {
+            probe_set_init(set);
+        }
+        (void)probe_set_update(set, &def, &s->frame, &s->surface, &s->snapshot);
+        times[i] = (double)(rlf_clock_ns() - start) * 1e-6;
+    }
+    add_row(r, "of it: light by place", times);
+    if (set != NULL) {
+        probe_set_destroy(set);
+    }
+    free(set);
+}
+
+/* The camera's blur and noise: measured in each frame, and given to what the matte shows. */
+static void measure_finish(report *r, render_scene *s)
+{
+    finish *f = calloc(1, sizeof(*f));
+    rlf_compositor_def def = scene_def(s);
+    rlf_compositor *compositor = NULL;
+    rlf_render_output out;
+    def.occlusion = RLF_OCCLUSION_SOFT;
+    if (f == NULL || rlf_compositor_create_soft(&def, &compositor) != RLF_OK ||
+        rlf_compositor_render(compositor, &s->input, &out) != RLF_OK ||
+        finish_create(out.image.width, out.image.height, f) != RLF_OK) {
+        rlf_compositor_destroy(&compositor);
+        free(f);
+        return;
+    }
+    double looks[REPEATS];
+    double draws[REPEATS];
+    for (int i = 0; i < REPEATS; i++) {
+        int64_t start = rlf_clock_ns();
+        s->frame.sequence++;
+        finish_look(f, &s->frame);
+        looks[i] = (double)(rlf_clock_ns() - start) * 1e-6;
+        f->width_px = 2.5f; /* of a soft camera */
+        f->noise.is_known = true;
+        start = rlf_clock_ns();
+        finish_picture(f, NULL, &out.image, &out.matte);
+        draws[i] = (double)(rlf_clock_ns() - start) * 1e-6;
+    }
+    add_row(r, "of it: blur and noise, measuring", looks);
+    add_row(r, "of it: blur and noise, drawing", draws);
+    finish_destroy(f);
+    rlf_compositor_destroy(&compositor);
+    free(f);
+}
+
 static void measure_counts(report *r, render_scene *s, rlf_body_state *bodies)
 {
     const int32_t counts[4] = {0, 2, 20, BODY_COUNT};
@@ -124,6 +187,10 @@ static void measure_counts(report *r, render_scene *s, rlf_body_state *bodies)
     for (int i = 0; i < 4; i++) {
         s->snapshot.body_count = counts[i];
         measure_composite(r, s, RLF_OCCLUSION_SOFT, "boxes of 12 cm");
+        if (counts[i] == 2 && s->rig.color.width == 960) {
+            measure_probes(r, s);
+            measure_finish(r, s);
+        }
     }
     measure_composite(r, s, RLF_OCCLUSION_DEPTH, "boxes of 12 cm");
     measure_composite(r, s, RLF_OCCLUSION_OFF, "boxes of 12 cm");

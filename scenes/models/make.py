@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Makes the models of scenes/models that are ours: duck.gltf, mug.obj with mug.mtl and mug.png, and
-chair.obj.
+"""Makes the models of scenes/models that are ours: duck.gltf, mug.obj with mug.mtl and mug.png,
+chair.obj, and toys: balls that share ball.bin, a die, a block, a tin and a bear.
 
 usage: scenes/models/make.py [FOLDER]     (default: its own)
 
 The duck is a smooth union of ellipsoids, meshed by surface nets (Gibson 1998); its texture is
-painted as seen from the side. The mug is a turned profile with a bent handle. The chair is the
-synthetic room's (src/sim/room.c). Only Python's
-standard library is used, and the same files come out every time.
+painted as seen from the side, as is the bear. The mug is a turned profile with a bent handle. The
+chair is the synthetic room's (src/sim/room.c). Only Python's standard library is used, and the same
+files come out every time.
 """
 import base64
 import json
@@ -208,7 +208,7 @@ def write_duck(path):
         'meshes': [{'primitives': [{'attributes': {'POSITION': 0, 'NORMAL': 1, 'TEXCOORD_0': 2},
                                     'indices': 3, 'material': 0}]}],
         'materials': [{'name': 'rubber', 'pbrMetallicRoughness': {
-            'baseColorTexture': {'index': 0}, 'metallicFactor': 0}}],
+            'baseColorTexture': {'index': 0}, 'metallicFactor': 0, 'roughnessFactor': 0.3}}],
         'textures': [{'source': 0}], 'images': [{'bufferView': 4, 'mimeType': 'image/png'}],
         'accessors': [
             {'bufferView': 0, 'componentType': 5126, 'count': count, 'type': 'VEC3',
@@ -284,7 +284,7 @@ def write_mug(folder):
     with open(os.path.join(folder, 'mug.obj'), 'w', encoding='utf-8') as out:
         out.write('\n'.join(lines) + '\n')
     with open(os.path.join(folder, 'mug.mtl'), 'w', encoding='utf-8') as out:
-        out.write('# Made by scenes/models/make.py.\nnewmtl glaze\nKd 1 1 1\nmap_Kd mug.png\n')
+        out.write('# Made by scenes/models/make.py.\nnewmtl glaze\nKd 1 1 1\nPr 0.12\nmap_Kd mug.png\n')
     with open(os.path.join(folder, 'mug.png'), 'wb') as out:
         out.write(png((512, 256), mug_texel))
     return sum(len(face) - 2 for face in faces)
@@ -320,6 +320,282 @@ def write_chair(path):
     return 12 * len(chair_boxes())
 
 
+# ---- toys ----------------------------------------------------------------------------------------
+def data_uri(kind, data):
+    return 'data:%s;base64,%s' % (kind, base64.b64encode(data).decode())
+
+
+def write_gltf(path, mesh, materials, external=None):
+    """mesh: points, normals, uvs, and a list of triangles per material. A material is a dict with
+    name, color (linear), metallic, roughness and texture (PNG bytes or None). With `external` the
+    geometry goes into that file, which other models name too."""
+    points, normals, uvs, parts = mesh
+    data = [b''.join(struct.pack('<3f', *p) for p in points),
+            b''.join(struct.pack('<3f', *n) for n in normals),
+            b''.join(struct.pack('<2f', *t) for t in uvs)]
+    data += [struct.pack('<%dH' % len(part), *part) for part in parts]
+    data = [d + b'\0' * (-len(d) % 4) for d in data]
+    blob = b''.join(data)
+    if external is not None:
+        with open(os.path.join(os.path.dirname(path), external), 'wb') as out:
+            out.write(blob)
+    single = struct.Struct('<3f')
+    bound = [single.unpack(single.pack(*[pick(p[i] for p in points) for i in range(3)]))
+             for pick in (min, max)]
+    accessors = [{'bufferView': i, 'componentType': 5126, 'count': len(points),
+                  'type': 'VEC3' if i < 2 else 'VEC2'} for i in range(3)]
+    accessors[0].update({'min': bound[0], 'max': bound[1]})
+    accessors += [{'bufferView': 3 + i, 'componentType': 5123, 'count': len(part), 'type': 'SCALAR'}
+                  for i, part in enumerate(parts)]
+    document = {
+        'asset': {'version': '2.0', 'generator': 'scenes/models/make.py'},
+        'scene': 0, 'scenes': [{'nodes': [0]}], 'nodes': [{'mesh': 0}],
+        'meshes': [{'primitives': [
+            {'attributes': {'POSITION': 0, 'NORMAL': 1, 'TEXCOORD_0': 2}, 'indices': 3 + i,
+             'material': i} for i in range(len(parts))]}],
+        'materials': [], 'accessors': accessors,
+        'bufferViews': [{'buffer': 0, 'byteOffset': sum(len(d) for d in data[:i]),
+                         'byteLength': len(d)} for i, d in enumerate(data)],
+        'buffers': [{'byteLength': len(blob), 'uri': external if external is not None else
+                     data_uri('application/octet-stream', blob)}]}
+    for m in materials:
+        pbr = {'baseColorFactor': m.get('color', [1, 1, 1]) + [1],
+               'metallicFactor': m.get('metallic', 0), 'roughnessFactor': m['roughness']}
+        if m.get('texture') is not None:
+            pbr['baseColorTexture'] = {'index': len(document.setdefault('textures', []))}
+            document['textures'].append({'source': len(document['textures'])})
+            document.setdefault('images', []).append({'uri': data_uri('image/png', m['texture'])})
+        document['materials'].append({'name': m['name'], 'pbrMetallicRoughness': pbr})
+    with open(path, 'w', encoding='utf-8') as out:
+        json.dump(document, out, separators=(',', ':'))
+        out.write('\n')
+    return sum(len(part) for part in parts) // 3
+
+
+def turned(profile, slices):
+    """(radius, height, normal r, normal y, v) from the lower end up, turned round y."""
+    points, normals, uvs, triangles = [], [], [], []
+    for radius, height, nr, ny, v in profile:
+        for i in range(slices + 1):
+            angle = 2.0 * math.pi * i / slices
+            points.append([radius * math.sin(angle), height, radius * math.cos(angle)])
+            normals.append(unit([nr * math.sin(angle), ny, nr * math.cos(angle)]))
+            uvs.append([i / slices, v])
+    for ring in range(len(profile) - 1):
+        for i in range(slices):
+            a = ring * (slices + 1) + i
+            b = a + slices + 1
+            if profile[ring][0] > 0.0:
+                triangles += [a, a + 1, b + 1]
+            if profile[ring + 1][0] > 0.0:
+                triangles += [a, b + 1, b]
+    return points, normals, uvs, triangles
+
+
+def ball_mesh():
+    profile = []
+    for k in range(17):
+        angle = math.pi * (k / 16 - 0.5)
+        radius = math.cos(angle) if 0 < k < 16 else 0.0
+        profile.append((radius, math.sin(angle), radius, math.sin(angle), 1.0 - k / 16))
+    points, normals, uvs, triangles = turned(profile, 32)
+    return points, normals, uvs, [triangles]
+
+
+def on_ball(x, y, size):
+    """Unit vector that a texel of (width, height) shows."""
+    turn, up = 2.0 * math.pi * (x + 0.5) / size[0], math.pi * (0.5 - (y + 0.5) / size[1])
+    return [math.cos(up) * math.sin(turn), math.sin(up), math.cos(up) * math.cos(turn)]
+
+
+def tennis_texel(x, y):
+    p = on_ball(x, y, (128, 64))
+    seam = abs(p[1] - 0.55 * math.sin(2.0 * math.atan2(p[0], p[2])))
+    fuzz = 10.0 * math.sin(97.0 * p[0] + 41.0 * math.sin(71.0 * p[1])) * math.sin(89.0 * p[2])
+    felt = [206 + fuzz, 222 + fuzz, 66 + 0.5 * fuzz]
+    return [min(255.0, max(0.0, c)) for c in mix(felt, [236, 236, 226], smooth(0.085, 0.05, seam))]
+
+
+def marble_texel(x, y):
+    p = on_ball(x, y, (128, 64))
+    swirl = math.sin(5.0 * p[1] + 2.2 * math.sin(2.6 * p[0] + 1.7 * p[2]) + 1.3 * math.sin(4.1 * p[2]))
+    deep = mix([16, 54, 74], [38, 128, 122], 0.5 + 0.5 * math.sin(3.0 * p[0] - 2.0 * p[1]))
+    return mix(mix(deep, [236, 244, 240], smooth(0.72, 0.97, swirl)), [214, 132, 44],
+               0.9 * smooth(-0.80, -0.98, swirl))
+
+
+def rubber_texel(x, y):
+    p = on_ball(x, y, (64, 64))
+    band = smooth(0.24, 0.21, abs(p[1]))
+    star = smooth(0.90, 0.92, abs(p[1]))
+    return mix(mix([196, 38, 34], [238, 232, 220], band), [36, 78, 158], star)
+
+
+def box_mesh(half, bevel, atlas):
+    """A box with rounded edges; atlas(face) is where a face lies in the texture: u0, v0, u1, v1."""
+    points, normals, uvs, triangles = [], [], [], []
+    steps = [-1.0, -1.0, -1.0, 1.0, 1.0, 1.0]
+    lean = [-1.0, -0.4142, 0.0, 0.0, 0.4142, 1.0]
+    for face in range(6):
+        axis, sign = face // 2, 1.0 if face % 2 == 0 else -1.0
+        across, up = (axis + 1) % 3, (axis + 2) % 3
+        if axis == 0:
+            across, up = 2, 1
+        elif axis == 1:
+            across, up = 0, 2
+        else:
+            across, up = 0, 1
+        first = len(points)
+        for j in range(6):
+            for i in range(6):
+                n = [0.0, 0.0, 0.0]
+                n[axis], n[across], n[up] = sign, lean[i], lean[j]
+                n = unit(n)
+                core = [0.0, 0.0, 0.0]
+                core[axis] = sign * (half[axis] - bevel)
+                core[across] = steps[i] * (half[across] - bevel)
+                core[up] = steps[j] * (half[up] - bevel)
+                p = add(core, n, bevel)
+                u0, v0, u1, v1 = atlas(face)
+                s, t = 0.5 + 0.5 * p[across] / half[across], 0.5 - 0.5 * p[up] / half[up]
+                points.append(p)
+                normals.append(n)
+                uvs.append([u0 + (u1 - u0) * s, v0 + (v1 - v0) * t])
+        out = cross([float(k == across) for k in range(3)], [float(k == up) for k in range(3)])
+        is_outward = dot(out, [float(k == axis) * sign for k in range(3)]) > 0.0
+        for j in range(5):
+            for i in range(5):
+                a = first + 6 * j + i
+                quad = [a, a + 1, a + 7, a, a + 7, a + 6]
+                triangles += quad if is_outward else quad[::-1]
+    return points, normals, uvs, [triangles]
+
+
+PIPS = {1: [(0, 0)], 2: [(-1, -1), (1, 1)], 3: [(-1, -1), (0, 0), (1, 1)],
+        4: [(-1, -1), (1, -1), (-1, 1), (1, 1)], 5: [(-1, -1), (1, -1), (0, 0), (-1, 1), (1, 1)],
+        6: [(x, y) for x in (-1, 1) for y in (-1, 0, 1)]}
+DIE_FACES = [1, 6, 2, 5, 3, 4]
+
+
+def die_texel(x, y):
+    cell = 40
+    face = DIE_FACES[y // cell * 3 + x // cell]
+    u, v = (x % cell + 0.5) / cell * 2.0 - 1.0, (y % cell + 0.5) / cell * 2.0 - 1.0
+    near = min(math.hypot(u - 0.5 * a, v - 0.5 * b) for a, b in PIPS[face])
+    return mix([244, 240, 230], [26, 26, 30], smooth(0.21, 0.15, near))
+
+
+def hash01(a, b):
+    h = (a * 0x9e3779b1 ^ b * 0x85ebca77) & 0xffffffff
+    h = ((h ^ h >> 15) * 0x2c1b3c6d) & 0xffffffff
+    return ((h ^ h >> 12) & 1023) / 1023.0
+
+
+def wood_texel(x, y):
+    """Beech: years of growth along x, and short dark rays."""
+    bent = y + 5.0 * math.sin(0.021 * x + 0.7) + 2.0 * math.sin(0.055 * x)
+    years = 0.5 + 0.5 * math.sin(0.55 * bent + 1.6 * math.sin(0.19 * bent))
+    fibre = hash01(x // 9, y) - 0.5
+    ray = 0.30 if hash01(x // 4 + 991, y) > 0.985 else 0.0
+    color = mix([222, 178, 126], [190, 138, 88], 0.75 * years)
+    return [min(255.0, max(0.0, c * (1.0 + 0.07 * fibre - ray))) for c in color]
+
+
+def label_texel(x, y):
+    v = (y + 0.5) / 64
+    color = mix([176, 34, 30], [240, 226, 196], smooth(0.30, 0.32, v) * smooth(0.72, 0.70, v))
+    u = (x + 0.5) / 128 * 4.0 % 1.0 - 0.5
+    fruit = math.hypot(u / 0.26, (v - 0.51) / 0.14)
+    color = mix(color, [206, 60, 30], smooth(1.0, 0.9, fruit))
+    color = mix(color, [74, 120, 48], smooth(0.035, 0.025, math.hypot(u, 2.0 * (v - 0.36))))
+    return mix(color, [214, 168, 60], smooth(0.02, 0.012, min(abs(v - 0.27), abs(v - 0.75))))
+
+
+def tin_mesh():
+    """Radius 0.5, height 1.2: lids and rims of metal, a paper label between."""
+    ends = [(0.0, -0.57, 0, -1, 0), (0.42, -0.57, 0, -1, 0), (0.45, -0.60, -1, -1, 0),
+            (0.48, -0.60, 0.6, -1, 0), (0.50, -0.58, 1, 0, 0), (0.50, -0.56, 1, 0.3, 0),
+            (0.49, -0.54, 1, 0, 0)]
+    metal = [(r, h, nr, ny, 0.0) for r, h, nr, ny, _ in ends]
+    rest = [(r, -h, nr, -ny, 0.0) for r, h, nr, ny, _ in reversed(ends)]
+    points, normals, uvs, parts = [], [], [], [[], []]
+    for profile, part in ((metal, 0), (rest, 0), ([(0.49, -0.54, 1, 0, 1.0), (0.49, 0.54, 1, 0, 0.0)], 1)):
+        p, n, t, triangles = turned(profile, 32)
+        parts[part] += [len(points) + i for i in triangles]
+        points, normals, uvs = points + p, normals + n, uvs + t
+    return points, normals, uvs, parts
+
+
+def bear(p):
+    p = [abs(p[0]), p[1], p[2]]
+    d = ellipsoid(p, [0, 0.36, 0.0], [0.30, 0.34, 0.27])
+    d = union(d, ellipsoid(p, [0, 0.84, 0.03], [0.25, 0.23, 0.23]), 0.08)
+    d = union(d, ellipsoid(p, [0.19, 1.02, 0.0], [0.085, 0.085, 0.05]), 0.04)
+    d = union(d, ellipsoid(p, [0, 0.78, 0.22], [0.11, 0.085, 0.09]), 0.05)
+    d = union(d, ellipsoid(p, [0.29, 0.46, 0.14], [0.10, 0.10, 0.20]), 0.06)
+    return union(d, ellipsoid(p, [0.20, 0.10, 0.24], [0.12, 0.11, 0.22]), 0.06)
+
+
+BEAR_LOW, BEAR_HIGH = [-0.46, -0.06, -0.34], [0.46, 1.16, 0.52]
+
+
+def bear_texel(x, y):
+    """Seen from the front; the back has the same colours."""
+    px = BEAR_LOW[0] + (BEAR_HIGH[0] - BEAR_LOW[0]) * (x + 0.5) / 128
+    py = BEAR_HIGH[1] + (BEAR_LOW[1] - BEAR_HIGH[1]) * (y + 0.5) / 128
+    plush = 1.0 + 0.16 * (hash01(x, y) - 0.5) + 0.10 * (hash01(x // 2, y // 2) - 0.5)
+    color = mix([128, 78, 42], [198, 150, 98], smooth(1.0, 0.85, math.hypot(px / 0.19, (py - 0.36) / 0.23)))
+    color = mix(color, [206, 164, 114], smooth(1.0, 0.85, math.hypot(px / 0.11, (py - 0.77) / 0.085)))
+    color = [c * plush for c in color]
+    for cx, cy, r in ((0.095, 0.90, 0.030), (-0.095, 0.90, 0.030), (0.0, 0.815, 0.038)):
+        color = mix(color, [20, 16, 16], smooth(r, 0.7 * r, math.hypot(px - cx, py - cy)))
+    return [min(255.0, max(0.0, c)) for c in color]
+
+
+def bear_mesh():
+    points, quads = surface_net(bear, BEAR_LOW, BEAR_HIGH, [12, 16, 11])
+    normals, uvs, triangles = [], [], []
+    for i, p in enumerate(points):
+        for _ in range(3):
+            p = add(p, gradient(bear, p), -bear(p))
+        points[i] = p
+        normals.append(gradient(bear, p))
+        uvs.append([(p[0] - BEAR_LOW[0]) / (BEAR_HIGH[0] - BEAR_LOW[0]),
+                    (BEAR_HIGH[1] - p[1]) / (BEAR_HIGH[1] - BEAR_LOW[1])])
+    for a, b, c, d in quads:
+        triangles += [a, b, c, a, c, d]
+    return points, normals, uvs, [triangles]
+
+
+def write_toys(folder):
+    whole = lambda face: (0.0, 0.0, 1.0, 1.0)  # noqa: E731
+    third = lambda face: (face % 3 / 3, face // 3 / 2, (face % 3 + 1) / 3, (face // 3 + 1) / 2)  # noqa: E731
+    toys = [
+        ('ball_steel', ball_mesh(), [{'name': 'steel', 'color': [0.56, 0.57, 0.58], 'metallic': 1,
+                                      'roughness': 0.15}]),
+        ('ball_rubber', ball_mesh(), [{'name': 'rubber', 'roughness': 0.4,
+                                       'texture': png((64, 64), rubber_texel)}]),
+        ('ball_tennis', ball_mesh(), [{'name': 'felt', 'roughness': 1.0,
+                                       'texture': png((128, 64), tennis_texel)}]),
+        ('marble', ball_mesh(), [{'name': 'glass', 'roughness': 0.05,
+                                  'texture': png((128, 64), marble_texel)}]),
+        ('die', box_mesh([0.5] * 3, 0.09, third), [{'name': 'plastic', 'roughness': 0.25,
+                                                    'texture': png((120, 80), die_texel)}]),
+        ('block', box_mesh([0.5] * 3, 0.04, whole), [{'name': 'beech', 'roughness': 0.6,
+                                                      'texture': png((128, 128), wood_texel)}]),
+        ('tin', tin_mesh(), [{'name': 'tinplate', 'color': [0.62, 0.61, 0.58], 'metallic': 1,
+                              'roughness': 0.3},
+                             {'name': 'paper', 'roughness': 0.5,
+                              'texture': png((128, 64), label_texel)}]),
+        ('bear', bear_mesh(), [{'name': 'plush', 'roughness': 1.0,
+                                'texture': png((128, 128), bear_texel)}])]
+    for name, mesh, materials in toys:
+        is_ball = mesh[3][0] == toys[0][1][3][0] and len(mesh[0]) == len(toys[0][1][0])
+        count = write_gltf(os.path.join(folder, name + '.gltf'), mesh, materials,
+                           'ball.bin' if is_ball else None)
+        print('%s.gltf: %d triangles' % (name, count))
+
+
 def main():
     if len(sys.argv) > 2 or any(a.startswith('-') for a in sys.argv[1:]):
         print(__doc__.strip(), file=sys.stdout if '--help' in sys.argv else sys.stderr)
@@ -328,6 +604,7 @@ def main():
     folder = sys.argv[1] if len(sys.argv) == 2 else own
     print('duck.gltf: %d triangles' % write_duck(os.path.join(folder, 'duck.gltf')))
     print('mug.obj: %d triangles' % write_mug(folder))
+    write_toys(folder)
     print('chair.obj: %d triangles' % write_chair(os.path.join(folder, 'chair.obj')))
     return 0
 

@@ -9,6 +9,7 @@
 #define RLF_ENVIRONMENT_EDGE_MATTE_H
 
 #include "base/inside.h"
+#include "camera/pixel_rect.h"
 #include "environment/depth_edge.h"
 #include "known/layer.h"
 #include "relief/frame.h"
@@ -80,6 +81,8 @@ void edge_matte_destroy(edge_matte *s) RLF_INSIDE(edge_matte_destroy);
  * camera's frame; at the end, what is around them. `camera` is the picture's. */
 void edge_matte_clear_bodies(edge_matte *s);
 void edge_matte_add_body(edge_matte *s, const rlf_camera *camera, rlf_vec3 center, double radius);
+/* Where their shadows fall: pixels, and depths near_z..far_z. */
+void edge_matte_add_shadow(edge_matte *s, const pixel_rect *rect, double near_z, double far_z);
 void edge_matte_spread_bodies(edge_matte *s);
 /* Fills near_z, far_z and cover where a body may meet an edge. z is the registered depth; the
  * frame's colour may be missing. `known`, of the picture's camera, has covered z: its models' edges

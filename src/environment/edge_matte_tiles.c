@@ -1,7 +1,6 @@
 /* Tiles of the picture: which have bodies, and which have edges that matter to those. */
 #include "environment/edge_matte.h"
 
-#include "camera/pixel_rect.h"
 #include "environment/depth_edge.h"
 #include "kernel/kernel.h"
 
@@ -29,17 +28,21 @@ void edge_matte_clear_bodies(edge_matte *s)
     }
 }
 
-void edge_matte_add_body(edge_matte *s, const rlf_camera *camera, rlf_vec3 center, double radius)
+void edge_matte_add_shadow(edge_matte *s, const pixel_rect *rect, double near_z, double far_z)
 {
-    const edge_matte_tile range = {(float)(center.z - radius), (float)(center.z + radius)};
-    pixel_rect rect;
-    if (!pixel_rect_of_ball(camera, center, radius, &rect)) {
-        return;
-    }
-    for (int32_t y = rect.y0 / EDGE_MATTE_TILE; y * EDGE_MATTE_TILE < rect.y1; y++) {
-        for (int32_t x = rect.x0 / EDGE_MATTE_TILE; x * EDGE_MATTE_TILE < rect.x1; x++) {
+    const edge_matte_tile range = {(float)near_z, (float)far_z};
+    for (int32_t y = rect->y0 / EDGE_MATTE_TILE; y * EDGE_MATTE_TILE < rect->y1; y++) {
+        for (int32_t x = rect->x0 / EDGE_MATTE_TILE; x * EDGE_MATTE_TILE < rect->x1; x++) {
             widen(&s->own[y * s->columns + x], &range);
         }
+    }
+}
+
+void edge_matte_add_body(edge_matte *s, const rlf_camera *camera, rlf_vec3 center, double radius)
+{
+    pixel_rect rect;
+    if (pixel_rect_of_ball(camera, center, radius, &rect)) {
+        edge_matte_add_shadow(s, &rect, center.z - radius, center.z + radius);
     }
 }
 

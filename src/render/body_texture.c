@@ -13,53 +13,81 @@ body_texture_kind body_texture_kind_of(rlf_shape_type type)
     return BODY_TEXTURE_STRIPE;
 }
 
-/* Noise 0..15 that is drawn out along x like wood grain. */
-static int32_t wood_grain(int32_t x, int32_t y)
+probe_material body_material_of(rlf_shape_type type)
 {
-    uint32_t h = (uint32_t)(x / 16) * 0x9e3779b1u ^ (uint32_t)y * 0x85ebca77u;
+    const float roughness = type == RLF_SHAPE_BOX || type == RLF_SHAPE_HULL ? 0.6f : 0.35f;
+    return (probe_material){0.0f, roughness};
+}
+
+/* Noise 0..15. */
+static int32_t noise_at(int32_t x, int32_t y)
+{
+    uint32_t h = (uint32_t)x * 0x9e3779b1u ^ (uint32_t)y * 0x85ebca77u;
     h ^= h >> 15;
     h *= 0x2c1b3c6du;
     h ^= h >> 13;
     return (int32_t)(h & 15u);
 }
 
+/* Noise 0..63 that is drawn out along x like wood grain: years of growth, and fibres, each linear
+ * from one value to the next. */
+static int32_t wood_grain(int32_t x, int32_t y)
+{
+    const int32_t bent = 8 * y + 5 * noise_at(x / 32, 7) * (32 - x % 32) / 32 +
+                         5 * noise_at(x / 32 + 1, 7) * (x % 32) / 32;
+    const int32_t year = bent / 40;
+    const int32_t rest = bent % 40;
+    const int32_t years = (noise_at(year, 3) * (40 - rest) + noise_at(year + 1, 3) * rest) / 40;
+    const int32_t fibre =
+        (noise_at(x / 16, y) * (16 - x % 16) + noise_at(x / 16 + 1, y) * (x % 16)) / 16;
+    return 3 * years + fibre;
+}
+
+/* A board's brightness: a little darker towards its edges, which are rounded. `edge`: texels to the
+ * nearest one. */
+static int32_t board_brightness(int32_t light, int32_t edge, int32_t grain)
+{
+    static const int32_t round_off[4] = {62, 26, 10, 3};
+    return light - 40 + grain - (edge < 4 ? round_off[edge] : 0);
+}
+
 /* Four planks, a frame round them, and a brace from corner to corner that shows orientation. */
 static int32_t crate_brightness(int32_t x, int32_t y)
 {
     const int32_t n = BODY_TEXTURE_SIZE;
-    const int32_t frame = 14;
+    const int32_t frame = 15;
     const int32_t brace = 9;
     int32_t edge_x = x < n - 1 - x ? x : n - 1 - x;
     int32_t edge_y = y < n - 1 - y ? y : n - 1 - y;
     int32_t edge = edge_x < edge_y ? edge_x : edge_y;
     if (edge < frame) {
-        bool is_upright = edge_x < edge_y;
-        int32_t grain = is_upright ? wood_grain(y, x) : wood_grain(x, y);
-        return edge < 2 ? 150 : 240 + grain;
+        const bool is_upright = edge_x < edge_y;
+        const int32_t inner = frame - 1 - edge;
+        const int32_t grain = is_upright ? wood_grain(y + 300, x) : wood_grain(x, y + 300);
+        return board_brightness(226, edge < inner ? edge : inner, grain);
     }
-    if (edge < frame + 3) {
-        return 120;
-    }
-    int32_t off_diagonal = x > y ? x - y : y - x;
+    const int32_t off_diagonal = x > y ? x - y : y - x;
     if (off_diagonal < brace) {
-        return 226 + wood_grain(x + y, y - x + n);
+        return board_brightness(222, brace - 1 - off_diagonal, wood_grain(x + y, y - x + n));
     }
-    if (off_diagonal < brace + 3) {
-        return 130;
-    }
-    int32_t plank = (y - frame) / 25;
-    int32_t in_plank = (y - frame) % 25;
-    return in_plank < 2 ? 125 : 180 + 9 * (plank % 2) + wood_grain(x + 37 * plank, y);
+    const int32_t shade = off_diagonal < brace + 4 ? 9 * (brace + 4 - off_diagonal) : 0;
+    const int32_t below = edge < frame + 4 ? 9 * (frame + 4 - edge) : 0;
+    const int32_t plank = (y - frame) / 25;
+    const int32_t in_plank = (y - frame) % 25;
+    const int32_t side = in_plank < 24 - in_plank ? in_plank : 24 - in_plank;
+    const int32_t board =
+        board_brightness(192 + 7 * (plank % 2), side, wood_grain(x + 370 * plank, y));
+    return board - (shade > below ? shade : below);
 }
 
-/* Eight bright and dark sectors, with a bright band round the middle. */
+/* Eight sectors with a band round the middle. */
 static int32_t stripe_brightness(int32_t x, int32_t y)
 {
     const int32_t n = BODY_TEXTURE_SIZE;
-    if (y >= n / 2 - 8 && y < n / 2 + 8) {
-        return 235;
+    if (y >= n / 2 - 5 && y < n / 2 + 5) {
+        return 238;
     }
-    return x / (n / 8) % 2 == 0 ? 255 : 150;
+    return x / (n / 8) % 2 == 0 ? 255 : 196;
 }
 
 static int32_t brightness_of(body_texture_kind kind, int32_t x, int32_t y)

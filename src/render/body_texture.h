@@ -1,8 +1,6 @@
 /* How bodies look: procedural textures and the light, shared by both renderers.
  *
- * A body's pixel is  sRGB = body colour * texture * light,  light = ambient + diffuse max(0, -n.l),
- * each as far as other bodies leave it, with the normal n and the light's direction l in the depth
- * camera's frame. */
+ * A body's colour is its own times the texture's; probe.h says what light it sends. */
 #ifndef RLF_RENDER_BODY_TEXTURE_H
 #define RLF_RENDER_BODY_TEXTURE_H
 
@@ -10,6 +8,7 @@
 #include "relief/image.h"
 #include "relief/model.h"
 #include "relief/snapshot.h"
+#include "render/probe.h"
 
 enum {
     BODY_TEXTURE_SIZE = 128, /* pixels, a power of two, level 0 */
@@ -17,9 +16,7 @@ enum {
     BODY_TEXTURE_BYTES = 4 * (128 * 128 + 64 * 64 + 32 * 32 + 16 * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1)
 };
 
-#define BODY_LIGHT_AMBIENT 0.45
-#define BODY_LIGHT_DIFFUSE 0.55
-/* Shares of the two that another body can take away: see caster.h. */
+/* Shares of the light around and of the lamp's that another body can take away: see caster.h. */
 #define BODY_AMBIENT_SHARE 0.6
 #define BODY_DIRECT_SHARE 0.85
 
@@ -31,6 +28,9 @@ typedef enum body_texture_kind {
 } body_texture_kind;
 
 body_texture_kind body_texture_kind_of(rlf_shape_type type) RLF_INSIDE(body_texture_kind_of);
+
+/* Of a body that is drawn as its shape: wood of a crate, rubber of a ball. */
+probe_material body_material_of(rlf_shape_type type) RLF_INSIDE(body_material_of);
 
 /* Writes all levels one after the other, RGBA8, row 0 is v = 0, each level the mean of 2x2 of the
  * level before. */

@@ -51,6 +51,7 @@ static void set_shape(const rlf_shape *shape, caster *out)
     out->half[1] = (float)(half.y - round);
     out->half[2] = (float)(half.z - round);
     out->round = (float)round;
+    out->crease = shape->type == RLF_SHAPE_HULL ? 0.0f : 1.0f;
     out->penumbra = (float)(CASTER_PENUMBRA * least);
     out->near_m = (float)(CASTER_NEAR * size);
     out->length_m = (float)(CASTER_LENGTH * size);
@@ -292,6 +293,14 @@ RLF_KERNEL_PART float facing_of(const site *s, float z)
     return z > 0.0f ? facing : 0.0f;
 }
 
+/* Where a body touches a surface half of the sky is hidden from it, whichever way it faces. */
+RLF_KERNEL_PART float creased(const caster *c, float facing, float close, float z)
+{
+    const float square = close * close;
+    const float fourth = square * square;
+    return z > 0.0f ? facing + c->crease * (1.0f - facing) * fourth * fourth : 0.0f;
+}
+
 /* False when no point is within `reach` of the centre. */
 RLF_KERNEL_PART bool is_near(const float center[3], const float *restrict ray_x,
                              const float *restrict ray_y, const float *restrict z, float reach)
@@ -347,7 +356,7 @@ RLF_KERNEL_PART void take_ambient(const caster caster_here, const float *restric
         float gap = sqrtf(x * x + y * y + w * w) - c.round;
         float close = 1.0f - (gap > 0.0f ? gap : 0.0f) * per_near;
         close = close > 0.0f ? close : 0.0f;
-        left[i] *= 1.0f - share * close * close * facing_of(&s, z[i]);
+        left[i] *= 1.0f - share * close * close * creased(&c, facing_of(&s, z[i]), close, z[i]);
     }
 }
 
@@ -362,6 +371,7 @@ RLF_KERNEL_PART void take_direct(const caster caster_here, const float *restrict
     const float ly = c.to_light[1];
     const float lz = c.to_light[2];
     const float per_length = 1.0f / c.length_m;
+    const float per_penumbra = 1.0f / c.penumbra;
     RLF_KERNEL_WHOLE
     for (int32_t i = 0; i < CASTER_LANES; i++) {
         site s = site_at(&c, ray_x[i], ray_y[i], z[i]);
@@ -383,7 +393,7 @@ RLF_KERNEL_PART void take_direct(const caster caster_here, const float *restrict
         float hidden = limit(0.5f + (c.round - pass) / width, 0.0f, 1.0f);
         float fade = 1.0f - t * per_length;
         fade = fade > 0.0f ? fade : 0.0f;
-        hidden = t > 0.0f ? hidden * fade : 0.0f;
+        hidden *= fade * limit(t * per_penumbra, 0.0f, 1.0f); /* none before the body */
         left[i] *= 1.0f - share * hidden * facing_of(&s, z[i]);
     }
 }

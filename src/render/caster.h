@@ -21,7 +21,6 @@
 
 enum {
     CASTER_BODIES = 3, /* most bodies that shade another one */
-    CASTER_BLOCK = 2,  /* pixels on a side that share the light of a real surface */
     CASTER_LANES = 16  /* points that are worked on at once */
 };
 
@@ -30,6 +29,7 @@ typedef struct caster {
     float axis[3][3];  /* the body's axes in that frame */
     float half[3];     /* of the inner box */
     float round;       /* what the box is grown by */
+    float crease;      /* 1 = the rounded box is the body; 0 = it is about a hull */
     float light[3];    /* to the light: unit, picture camera frame */
     float to_light[3]; /* the same in the body's frame */
     float penumbra;    /* metres, at the body */

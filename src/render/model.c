@@ -96,10 +96,12 @@ static rlf_result check_parts(const rlf_model_def *def)
         if (part->first_triangle != next || part->triangle_count < 0 ||
             part->triangle_count > def->triangle_count - next || part->texture < -1 ||
             part->texture >= def->image_count || !is_within(part->color, 3, 1.0f) ||
-            part->color[0] < 0.0f || part->color[1] < 0.0f || part->color[2] < 0.0f) {
+            part->color[0] < 0.0f || part->color[1] < 0.0f || part->color[2] < 0.0f ||
+            !(part->metallic >= 0.0f && part->metallic <= 1.0f) ||
+            !(part->gloss >= 0.0f && part->gloss <= 1.0f)) {
             return rlf_fail(RLF_ERROR_INVALID,
-                            "%s: part %d: triangles must follow those of the part before, colours "
-                            "be 0 to 1, and the texture be there",
+                            "%s: part %d: triangles must follow those of the part before, colours, "
+                            "metallic and gloss be 0 to 1, and the texture be there",
                             def->name, (int)i);
         }
         next += part->triangle_count;
@@ -261,7 +263,8 @@ static rlf_model *build(const rlf_model_def *def)
         memcpy(parts, def->parts, (size_t)def->part_count * sizeof(*parts));
     } else {
         int32_t texture = def->image_count > 0 ? 0 : -1;
-        parts[0] = (rlf_model_part){0, def->triangle_count, {1.0f, 1.0f, 1.0f}, texture};
+        parts[0] =
+            (rlf_model_part){0, def->triangle_count, {1.0f, 1.0f, 1.0f}, texture, 0.0f, 0.0f};
     }
     fill_textures(def, (uint8_t *)block + l.texels, textures);
     rlf_model *model = (rlf_model *)(void *)block;

@@ -40,8 +40,24 @@ observation render_observation(const rlf_render_input *input)
     return (observation){input->frame, input->surface, input->snapshot, input->T_world_camera};
 }
 
+static void place_shadows(edge_matte *edges, const rlf_camera *camera, const render_casters *from)
+{
+    for (int32_t i = 0; i < from->count; i++) {
+        const caster *c = &from->casters[i];
+        pixel_rect rect;
+        if (c->near_m > 0.0f && caster_reach(c, camera, from->to_light, &rect)) {
+            const double z = (double)c->center[2];
+            const double end_z = z - from->to_light.z * (double)c->length_m;
+            const double reach = (double)(c->radius + c->near_m);
+            edge_matte_add_shadow(edges, &rect, rlf_min(z, end_z) - reach,
+                                  rlf_max(z, end_z) + reach);
+        }
+    }
+}
+
 void render_place_bodies(edge_matte *edges, const rlf_camera *camera,
-                         const rlf_pose *T_picture_world, const rlf_snapshot *snapshot)
+                         const rlf_pose *T_picture_world, const rlf_snapshot *snapshot,
+                         const render_casters *casters)
 {
     edge_matte_clear_bodies(edges);
     for (int32_t i = 0; snapshot != NULL && i < snapshot->body_count; i++) {
@@ -49,6 +65,7 @@ void render_place_bodies(edge_matte *edges, const rlf_camera *camera,
         edge_matte_add_body(edges, camera, rlf_transform(T_picture_world, body->T_world_body.p),
                             body_look_radius(body));
     }
+    place_shadows(edges, camera, casters);
     edge_matte_spread_bodies(edges);
 }
 

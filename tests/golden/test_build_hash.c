@@ -8,7 +8,7 @@
 #define HEAP 40
 
 static const golden room = {RLF_PROFILE_LIVE, 0xa0b43b4c2dfe5d38u, 0xb1514b4fddf6a5a8u,
-                            0xf0f142566f288f78u};
+                            0xcde82f67dba5e23bu};
 static const uint64_t heap = 0x3be1d0738736a68eu;
 
 static const rlf_vec3 TIPS[6] = {{0.06, 0, 0},  {-0.06, 0, 0}, {0, 0.06, 0},

@@ -47,7 +47,8 @@ static inline rlf_model *sample_ball(int cells)
     static rlf_model_vertex vertices[SAMPLE_VERTICES];
     static int32_t triangles[6 * SAMPLE_SLICES * SAMPLE_STACKS];
     static uint8_t pixels[4 * SAMPLE_TEXTURE * SAMPLE_TEXTURE];
-    const rlf_model_part part = {0, 2 * SAMPLE_SLICES * SAMPLE_STACKS, {1.0f, 0.8f, 0.6f}, -1};
+    const rlf_model_part part = {
+        0, 2 * SAMPLE_SLICES * SAMPLE_STACKS, {1.0f, 0.8f, 0.6f}, -1, 0.0f, 0.0f};
     rlf_image_rgba8 image = {pixels, SAMPLE_TEXTURE, SAMPLE_TEXTURE, 4 * SAMPLE_TEXTURE};
     rlf_model_def def = rlf_model_def_default();
     sample_fill(vertices, triangles, &def.triangle_count);

@@ -1,9 +1,10 @@
 /* Models: what they are made of, and how the CPU renderer draws them. */
 #include "model_sample.h"
+#include "render/probe.h"
 #include "render_scene.h"
 #include "test.h"
 
-#define GOLDEN_HASH 0x0ee6c670d02ebe48u
+#define GOLDEN_HASH 0xf57d153b4781007bu
 
 static rlf_render_output draw(render_scene *s, rlf_compositor *compositor)
 {
@@ -32,7 +33,7 @@ static rlf_body_state *add_model(render_scene *s, const rlf_model *model, double
     return body;
 }
 
-/* A square of side 2 in its xy plane that faces -z, red as u and green as v, in full light. */
+/* A square of side 2 in its xy plane that faces -z, red as u and green as v, matt. */
 static rlf_model *make_ramp(void)
 {
     static uint8_t pixels[4 * 256 * 256];
@@ -60,6 +61,13 @@ static rlf_model *make_ramp(void)
     return model;
 }
 
+/* Code of a channel of the ramp's pixel, whose blue is 128 and became `blue`: codes are the square
+ * roots of light, and a sheen is the same in all channels. */
+static double code_beside(double share, double code, double blue)
+{
+    return sqrt(rlf_max(0.0, share * (code * code - 128.0 * 128.0) + blue * blue));
+}
+
 /* What u and v are where a pixel's ray meets the tilted square: linear in the square, not in the
  * picture. */
 static void texture_is_right_in_perspective(void **state)
@@ -74,7 +82,7 @@ static void texture_is_right_in_perspective(void **state)
     rlf_pose T = rlf_pose_mul(&s->rig.T_color_depth, &body->T_world_body);
     rlf_vec3 light = rlf_neg(scene_def(s).light_direction);
     rlf_vec3 n = rlf_rotate(T.q, rlf_vec3_make(0, 0, -1));
-    double share = 0.45 + 0.55 * rlf_max(0.0, rlf_dot(n, light));
+    const double share = PROBE_AMBIENT + PROBE_DIRECT * rlf_max(0.0, rlf_dot(n, light));
     int checked = 0;
     for (int32_t y = 0; y < out.image.height; y++) {
         for (int32_t x = 0; x < out.image.width; x++) {
@@ -88,10 +96,10 @@ static void texture_is_right_in_perspective(void **state)
                 continue;
             }
             const uint8_t *pixel = rlf_rgba8_row(&out.image, y) + 4 * (ptrdiff_t)x;
-            double red = share * (256.0 * u - 0.5);
-            double green = share * (256.0 * v - 0.5);
-            assert_true(pixel[0] - red < 1.6 && red - pixel[0] < 1.6);
-            assert_true(pixel[1] - green < 1.6 && green - pixel[1] < 1.6);
+            const double red = code_beside(share, 256.0 * u - 0.5, pixel[2]);
+            const double green = code_beside(share, 256.0 * v - 0.5, pixel[2]);
+            assert_true(pixel[0] - red < 2.5 && red - pixel[0] < 2.5);
+            assert_true(pixel[1] - green < 2.5 && green - pixel[1] < 2.5);
             assert_int_equal(rlf_u8_row(&out.matte, y)[x], 255);
             checked++;
         }
@@ -278,11 +286,11 @@ static void bad_models_are_refused(void **state)
     corners[2].uv[1] = INFINITY;
     expect_refused(&def, "texture coordinate of vertex 2");
     corners[2].uv[1] = 0.0f;
-    rlf_model_part part = {0, 1, {1, 1, 1}, 0};
+    rlf_model_part part = {0, 1, {1, 1, 1}, 0, 0, 0};
     def.parts = &part;
     def.part_count = 1;
     expect_refused(&def, "part 0");
-    part = (rlf_model_part){0, 2, {1, 1, 1}, -1};
+    part = (rlf_model_part){0, 2, {1, 1, 1}, -1, 0, 0};
     expect_refused(&def, "part 0");
     uint8_t texel[4] = {0};
     const rlf_image_rgba8 image = {texel, 9000, 1, 4};

@@ -18,7 +18,7 @@
 #define LEAST_FACING 0.3 /* of a body's surface to the light: below, shade is hard to tell */
 #define REACH_M 2.5
 #define LIFT_M 0.002
-#define AMBIENT 0.45 /* of the renderers' light, and the share of the rest that is taken */
+#define AMBIENT 0.3 /* of the renderers' light, and the share of the rest that is taken */
 #define TAKEN 0.85
 
 /* To the right and away, to the left, and out of the room's depth towards the camera. */
@@ -174,7 +174,7 @@ static rlf_result judge_pixel(light_run *run, const rlf_render_output out[2], co
     double value[2] = {0.0, 0.0};
     for (int i = 0; i < 2; i++) {
         const uint8_t *color = rlf_rgba8_row(&out[i].image, y) + 4 * (ptrdiff_t)x;
-        value[i] = color[0] + color[1] + color[2];
+        value[i] = color[0] * color[0] + color[1] * color[1] + color[2] * color[2]; /* light */
     }
     double direct = (1.0 - AMBIENT) * facing;
     double half = 1.0 - 0.5 * TAKEN * direct / (AMBIENT + direct);

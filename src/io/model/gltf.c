@@ -172,6 +172,14 @@ static void read_transform(const json_t *texture, double out[2][3])
     memcpy(out, m, sizeof(m));
 }
 
+/* 0..1; 1 when it is not there. */
+static float json_factor(const json_t *pbr, const char *key)
+{
+    const json_t *number = json_object_get(pbr, key);
+    const double value = json_is_number(number) ? json_number_value(number) : 1.0;
+    return (float)rlf_clamp(value, 0.0, 1.0);
+}
+
 /* Colour and texture of a material; `out_transform` is of texture coordinates. */
 static rlf_result read_material(gltf *g, const json_t *material, rlf_model_part *out,
                                 double out_transform[2][3])
@@ -185,6 +193,12 @@ static rlf_result read_material(gltf *g, const json_t *material, rlf_model_part 
     get_numbers(pbr, "baseColorFactor", color, 4);
     for (int i = 0; i < 3; i++) {
         out->color[i] = srgb_of_linear(color[i]);
+    }
+    out->metallic = json_factor(pbr, "metallicFactor");
+    out->gloss = 1.0f - json_factor(pbr, "roughnessFactor");
+    if (pbr == NULL || json_object_get(pbr, "metallicRoughnessTexture") != NULL) {
+        out->metallic = 0.0f; /* painted, as most things are */
+        out->gloss = 0.5f * (1.0f + out->gloss);
     }
     read_transform(texture, out_transform);
     const json_t *image =
@@ -407,7 +421,8 @@ static rlf_result add_part(const scene *s, int64_t index)
     const json_t *materials = json_object_get(g->top, "materials");
     const json_t *material = index >= 0 ? json_array_get(materials, (size_t)index) : NULL;
     const bool is_two_sided = json_is_true(json_object_get(material, "doubleSided"));
-    rlf_model_part part = {d->triangle_count, 0, {1.0f, 1.0f, 1.0f}, -1};
+    rlf_model_part part = {
+        .first_triangle = d->triangle_count, .color = {1.0f, 1.0f, 1.0f}, .texture = -1};
     double transform[2][3] = {{1, 0, 0}, {0, 1, 0}};
     bool is_read = false;
     rlf_result result = RLF_OK;

@@ -9,6 +9,7 @@
 typedef struct material {
     float color[3];
     char texture[256]; /* "" = none */
+    float metallic, gloss;
 } material;
 
 static float share_of(double x)
@@ -23,6 +24,21 @@ static void read_color(char *line, float out[3])
         double x = 1.0;
         out[i] = word != NULL && io_number_parse(word, &x) ? share_of(x) : 1.0f;
     }
+}
+
+/* The line's number, 0..most. */
+static double number_within(char *line, double most)
+{
+    const char *word = io_obj_next_word(&line);
+    double x = 0.0;
+    return word != NULL && io_number_parse(word, &x) ? rlf_clamp(x, 0.0, most) : 0.0;
+}
+
+/* The roughness whose highlight is as wide as Phong's with an exponent, after Walter et al. 2007.
+ */
+static float gloss_of(double exponent)
+{
+    return (float)(1.0 - sqrt(sqrt(2.0 / (exponent + 2.0))));
 }
 
 /* A name may have blanks, unless options are before it. */
@@ -57,6 +73,12 @@ static void read_library(const io_obj *obj, char *text, material *materials)
             m = find(obj, materials, io_obj_rest(line));
         } else if (m != NULL && strcmp(word, "Kd") == 0) {
             read_color(line, m->color);
+        } else if (m != NULL && strcmp(word, "Ns") == 0) {
+            m->gloss = gloss_of(number_within(line, 1000.0));
+        } else if (m != NULL && strcmp(word, "Pr") == 0) {
+            m->gloss = (float)(1.0 - number_within(line, 1.0));
+        } else if (m != NULL && strcmp(word, "Pm") == 0) {
+            m->metallic = (float)number_within(line, 1.0);
         } else if (m != NULL && strcmp(word, "map_Kd") == 0) {
             read_texture(line, m->texture);
         }
@@ -101,7 +123,11 @@ static rlf_model_vertex vertex_of(const io_obj *obj, const int32_t corner[3])
 /* The triangles of one material; -1 = of none. */
 static rlf_result add_part(io_model_draft *d, const io_obj *obj, int32_t index, const material *m)
 {
-    rlf_model_part part = {d->triangle_count, 0, {m->color[0], m->color[1], m->color[2]}, -1};
+    rlf_model_part part = {.first_triangle = d->triangle_count,
+                           .color = {m->color[0], m->color[1], m->color[2]},
+                           .texture = -1,
+                           .metallic = m->metallic,
+                           .gloss = m->gloss};
     for (int32_t t = 0; t < obj->triangle_count; t++) {
         if (obj->materials[t] != index) {
             continue;
@@ -128,7 +154,7 @@ static rlf_result add_part(io_model_draft *d, const io_obj *obj, int32_t index, 
 
 static rlf_result add_parts(io_model_draft *d, const io_obj *obj, const material *materials)
 {
-    static const material plain = {{1.0f, 1.0f, 1.0f}, ""};
+    static const material plain = {.color = {1.0f, 1.0f, 1.0f}};
     if (obj->triangle_count == 0) {
         return rlf_fail(RLF_ERROR_FORMAT,
                         "%s: the model has no triangles: export its faces, not points or lines",
@@ -152,7 +178,7 @@ rlf_result io_model_read_obj(io_model_draft *d, const io_bytes *file)
     material *materials = rlf_alloc_array((size_t)obj.material_count + 1, sizeof(*materials));
     result = materials != NULL ? RLF_OK : RLF_ERROR_MEMORY;
     for (int32_t i = 0; i < obj.material_count && result == RLF_OK; i++) {
-        materials[i] = (material){{1.0f, 1.0f, 1.0f}, ""};
+        materials[i] = (material){.color = {1.0f, 1.0f, 1.0f}};
     }
     for (int32_t i = 0; i < obj.library_count && result == RLF_OK; i++) {
         result = load_library(d, &obj, obj.libraries[i], materials);

@@ -3,7 +3,7 @@
 
 #include "render/gl/gl_context.h"
 
-enum { UNIT_COLOR = 0, UNIT_REAL_DEPTH = 0 };
+enum { UNIT_COLOR = 0, UNIT_REAL_DEPTH = 0, UNIT_NEAR = 1, UNIT_FAR = 2, UNIT_COVER = 3 };
 
 static const char color_fragment[] =
     "uniform sampler2D u_color;\n"
@@ -29,25 +29,39 @@ static const char grey_fragment[] =
     "    o_color = vec4(vec3(z > 0.0 ? grey : 0.0), 0.0);\n"
     "}\n";
 
-/* Blocks of pixels share their light, as in the soft renderer. */
+/* On an edge the light of both sides is mixed as the matte says. */
 static const char shadow_fragment[] =
-    "const int block = 2;\n"
     "const float ambient_share = 0.5;\n"
     "const float direct_share = 0.35;\n"
     "uniform sampler2D u_real_depth;\n"
+    "uniform sampler2D u_near_z;\n"
+    "uniform sampler2D u_far_z;\n"
+    "uniform sampler2D u_cover;\n"
+    "uniform bool u_has_sides;\n"
     "uniform caster u_caster;\n"
     "uniform vec4 u_intrinsics;\n" /* fx fy cx cy */
     "out vec4 o_light;\n"
-    "void main()\n"
+    "float left_at(ivec2 pixel, float z)\n"
     "{\n"
-    "    ivec2 pixel = ivec2(gl_FragCoord.xy) / block * block;\n"
-    "    float z = texelFetch(u_real_depth, pixel, 0).r;\n"
-    "    if (z <= 0.0) {\n"
-    "        discard;\n"
+    "    if (z <= 0.0 || z >= 1e8) {\n"
+    "        return 1.0;\n"
     "    }\n"
     "    vec2 ray = (vec2(pixel) - u_intrinsics.zw) / u_intrinsics.xy;\n"
     "    vec2 lost = light_lost(u_caster, ray, z);\n"
-    "    o_light = vec4((1.0 - ambient_share * lost.x) * (1.0 - direct_share * lost.y));\n"
+    "    return (1.0 - ambient_share * lost.x) * (1.0 - direct_share * lost.y);\n"
+    "}\n"
+    "void main()\n"
+    "{\n"
+    "    ivec2 pixel = ivec2(gl_FragCoord.xy);\n"
+    "    float left;\n"
+    "    if (u_has_sides) {\n"
+    "        left = mix(left_at(pixel, texelFetch(u_far_z, pixel, 0).r),\n"
+    "            left_at(pixel, texelFetch(u_near_z, pixel, 0).r),\n"
+    "            texelFetch(u_cover, pixel, 0).r);\n"
+    "    } else {\n"
+    "        left = left_at(pixel, texelFetch(u_real_depth, pixel, 0).r);\n"
+    "    }\n"
+    "    o_light = vec4(left);\n"
     "}\n";
 
 static rlf_result make_programs(bool is_es, gl_backdrop *backdrop)
@@ -66,8 +80,14 @@ static rlf_result make_programs(bool is_es, gl_backdrop *backdrop)
     if (backdrop->shadow_program == 0) {
         return RLF_ERROR_DEVICE;
     }
-    /* All samplers read unit 0, the value that they start with. */
+    /* All other samplers read unit 0, the value that they start with. */
     GLuint p = backdrop->shadow_program;
+    glUseProgram(p);
+    glUniform1i(glGetUniformLocation(p, "u_near_z"), UNIT_NEAR);
+    glUniform1i(glGetUniformLocation(p, "u_far_z"), UNIT_FAR);
+    glUniform1i(glGetUniformLocation(p, "u_cover"), UNIT_COVER);
+    glUseProgram(0);
+    backdrop->uniforms.has_sides = glGetUniformLocation(p, "u_has_sides");
     backdrop->uniforms.color_size = glGetUniformLocation(backdrop->color_program, "u_size");
     backdrop->uniforms.grey_range = glGetUniformLocation(backdrop->grey_program, "u_range");
     backdrop->uniforms.caster = gl_caster_find_uniforms(p, "u_caster");
@@ -163,6 +183,12 @@ void gl_backdrop_draw_shadows(const gl_backdrop *backdrop, const gl_backdrop_sha
     glUniform4f(backdrop->uniforms.intrinsics, (GLfloat)k->fx, (GLfloat)k->fy, (GLfloat)k->cx,
                 (GLfloat)k->cy);
     gl_texture_bind(shadows->real_depth, UNIT_REAL_DEPTH);
+    glUniform1i(backdrop->uniforms.has_sides, shadows->sides != NULL ? 1 : 0);
+    if (shadows->sides != NULL) {
+        gl_texture_bind(shadows->sides->near_z, UNIT_NEAR);
+        gl_texture_bind(shadows->sides->far_z, UNIT_FAR);
+        gl_texture_bind(shadows->sides->cover, UNIT_COVER);
+    }
     glEnable(GL_SCISSOR_TEST);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ZERO, GL_SRC_COLOR);

@@ -15,7 +15,7 @@ typedef struct gl_backdrop {
         GLint color_size;
         GLint grey_range;
         gl_caster_uniforms caster;
-        GLint intrinsics;
+        GLint intrinsics, has_sides;
     } uniforms;
 } gl_backdrop;
 
@@ -32,6 +32,7 @@ void gl_backdrop_draw_grey(const gl_backdrop *backdrop, const gl_texture *real_d
 typedef struct gl_backdrop_shadows {
     const gl_view *view;
     const gl_texture *real_depth;
+    const gl_soft_real *sides; /* of edges; NULL = none */
     rlf_vec3 to_light;
     const caster *casters;
     int32_t caster_count;

@@ -17,7 +17,8 @@ enum {
     UNIT_FAR = 4,
     UNIT_COVER = 5,
     UNIT_SHADE = 6,
-    UNIT_SKIN = 7
+    UNIT_SKIN = 7,
+    UNIT_PROBES = 8
 };
 
 /* Values of u_occlusion. */
@@ -61,7 +62,7 @@ static const char body_fragment[] =
     "uniform vec2 u_body_shares;\n" /* of ambient and diffuse light that others can take */
     "uniform vec3 u_color;\n"
     "uniform vec3 u_light;\n"
-    "uniform vec2 u_ambient_diffuse;\n"
+    "uniform mat3 u_picture_camera;\n"
     "uniform float u_layer;\n"
     "uniform float u_level;\n"
     "uniform sampler2D u_skin;\n"
@@ -70,7 +71,6 @@ static const char body_fragment[] =
     "void main()\n"
     "{\n"
     "    vec3 normal = normalize(v_normal);\n"
-    "    float facing = max(0.0, -dot(normal, u_light));\n"
     "    float z = 1.0 / gl_FragCoord.w;\n"
     "    vec2 ray = (gl_FragCoord.xy - 0.5 - u_intrinsics.zw) / u_intrinsics.xy;\n"
     "    vec2 left = vec2(1.0);\n"
@@ -79,11 +79,11 @@ static const char body_fragment[] =
     "    }\n"
     "    left.x *= near_left(z * vec3(ray, 1.0), normal);\n"
     "    left.y *= 1.0 - u_body_shares.y * (1.0 - real_left(z * vec3(ray, 1.0)));\n"
-    "    float light = dot(u_ambient_diffuse * vec2(1.0, facing), left);\n"
     "    vec3 uv_layer = vec3(clamp(v_uv, 0.0, 1.0), u_layer);\n"
     "    vec3 pattern = u_has_skin ? texture(u_skin, v_uv).rgb\n"
     "                              : textureLod(u_textures, uv_layer, u_level).rgb;\n"
-    "    vec3 color = u_color * light * pattern;\n"
+    "    vec3 color = sent(u_color * pattern * pattern, u_picture_camera * normal,\n"
+    "        -(u_picture_camera * u_light), -normalize(vec3(ray, 1.0)), left);\n"
     "    float shown = 1.0;\n"
     "    if (u_occlusion == 1) {\n"
     "        shown = share_in_front(u_real_depth, z);\n"
@@ -91,7 +91,7 @@ static const char body_fragment[] =
     "        shown = share_of_soft(u_near_z, u_far_z, u_cover, u_noise, z);\n"
     "    }\n"
     "    vec3 real = texelFetch(u_backdrop, ivec2(gl_FragCoord.xy), 0).rgb;\n"
-    "    o_color = vec4(mix(real, min(color, 1.0), shown), shown);\n"
+    "    o_color = vec4(mix(real, color, shown), shown);\n"
     "}\n";
 
 static void create_program_uniforms(gl_bodies *bodies)
@@ -99,6 +99,7 @@ static void create_program_uniforms(gl_bodies *bodies)
     GLuint p = bodies->program;
     bodies->uniforms.picture_body = glGetUniformLocation(p, "u_picture_body");
     bodies->uniforms.camera_body = glGetUniformLocation(p, "u_camera_body");
+    bodies->uniforms.picture_camera = glGetUniformLocation(p, "u_picture_camera");
     bodies->uniforms.shift = glGetUniformLocation(p, "u_shift");
     bodies->uniforms.color = glGetUniformLocation(p, "u_color");
     bodies->uniforms.light = glGetUniformLocation(p, "u_light");
@@ -114,6 +115,7 @@ static void create_program_uniforms(gl_bodies *bodies)
                              ']', 0};
         bodies->uniforms.shaders[i] = gl_caster_find_uniforms(p, name);
     }
+    bodies->uniforms.probe = gl_probe_find_uniforms(p);
     bodies->uniforms.shade = gl_shade_find_uniforms(p);
     bodies->uniforms.near_by = gl_obscurance_find_uniforms(p);
     bodies->view_uniforms = gl_view_find_uniforms(p);
@@ -126,10 +128,9 @@ static void create_program_uniforms(gl_bodies *bodies)
     glUniform1i(glGetUniformLocation(p, "u_cover"), UNIT_COVER);
     glUniform1i(glGetUniformLocation(p, "u_shade_maps"), UNIT_SHADE);
     glUniform1i(glGetUniformLocation(p, "u_skin"), UNIT_SKIN);
+    glUniform1i(glGetUniformLocation(p, "u_probe_maps"), UNIT_PROBES);
     glUniform2f(glGetUniformLocation(p, "u_body_shares"), (GLfloat)BODY_AMBIENT_SHARE,
                 (GLfloat)BODY_DIRECT_SHARE);
-    glUniform2f(glGetUniformLocation(p, "u_ambient_diffuse"), (GLfloat)BODY_LIGHT_AMBIENT,
-                (GLfloat)BODY_LIGHT_DIFFUSE);
     glUseProgram(0);
 }
 
@@ -219,7 +220,7 @@ rlf_result gl_bodies_create(bool is_es, gl_bodies *out)
         {gl_view_glsl, body_vertex},
         {gl_caster_glsl,
          GL_OCCLUSION_GLSL GL_SOFT_OCCLUSION_GLSL GL_REAL_SHADE_GLSL GL_OBSCURANCE_GLSL,
-         body_fragment}};
+         gl_probe_glsl, body_fragment}};
     out->program = gl_program_build(is_es, &source);
     if (out->program == 0) {
         return RLF_ERROR_DEVICE;
@@ -251,6 +252,16 @@ void gl_bodies_destroy(gl_bodies *bodies)
     *bodies = (gl_bodies){0};
 }
 
+static void set_rotation(GLint uniform, rlf_quat q)
+{
+    const rlf_mat3 rotation = rlf_quat_to_mat3(q);
+    GLfloat columns[9];
+    for (int i = 0; i < 9; i++) {
+        columns[i] = (GLfloat)rotation.m[i % 3][i / 3];
+    }
+    glUniformMatrix3fv(uniform, 1, GL_FALSE, columns);
+}
+
 void gl_bodies_begin(const gl_bodies *bodies, const gl_bodies_pass *pass)
 {
     glUseProgram(bodies->program);
@@ -262,6 +273,8 @@ void gl_bodies_begin(const gl_bodies *bodies, const gl_bodies_pass *pass)
     glUniform4f(bodies->uniforms.intrinsics, (GLfloat)k->fx, (GLfloat)k->fy, (GLfloat)k->cx,
                 (GLfloat)k->cy);
     gl_view_set_uniforms(&bodies->view_uniforms, pass->view);
+    set_rotation(bodies->uniforms.picture_camera, pass->view->T_picture_camera.q);
+    gl_texture_bind(&pass->probes->texture, UNIT_PROBES);
     gl_texture_bind(pass->backdrop, UNIT_BACKDROP);
     if (pass->real_depth != NULL) {
         gl_texture_bind(pass->real_depth, UNIT_REAL_DEPTH);
@@ -281,12 +294,15 @@ void gl_bodies_begin(const gl_bodies *bodies, const gl_bodies_pass *pass)
     glBindTexture(GL_TEXTURE_2D_ARRAY, bodies->textures);
 }
 
-static void set_color(const gl_bodies *bodies, const gl_bodies_pass *pass,
-                      const rlf_body_state *body, const float own[3])
+/* Linear. */
+static void set_color(const gl_bodies *bodies, const rlf_body_state *body, const float own[3])
 {
-    const float *shown = pass->light_color;
-    glUniform3f(bodies->uniforms.color, body->color[0] * shown[0] * own[0],
-                body->color[1] * shown[1] * own[1], body->color[2] * shown[2] * own[2]);
+    GLfloat color[3];
+    for (int k = 0; k < 3; k++) {
+        const float code = (float)rlf_clamp((double)body->color[k], 0.0, 1.0) * own[k];
+        color[k] = code * code;
+    }
+    glUniform3fv(bodies->uniforms.color, 1, color);
 }
 
 /* Where a unit mesh, hull or model (whose `offset` is in the body's frame) is. */
@@ -297,13 +313,8 @@ static void set_place(const gl_bodies *bodies, const gl_view *view, const rlf_bo
     rlf_pose T_picture_body = rlf_pose_mul(&view->T_picture_world, &body->T_world_body);
     T_picture_body.p = rlf_transform(&T_picture_body, offset);
     rlf_mat4 view_model = rlf_mat4_model(&T_picture_body, scale);
-    rlf_mat3 rotation = rlf_quat_to_mat3(T_camera_body.q);
-    GLfloat columns[9];
-    for (int i = 0; i < 9; i++) {
-        columns[i] = (GLfloat)rotation.m[i % 3][i / 3];
-    }
     gl_view_set_matrix(bodies->uniforms.picture_body, &view_model);
-    glUniformMatrix3fv(bodies->uniforms.camera_body, 1, GL_FALSE, columns);
+    set_rotation(bodies->uniforms.camera_body, T_camera_body.q);
 }
 
 /* Uniforms of a body that is drawn as its shape. */
@@ -316,7 +327,8 @@ static void set_shape(const gl_bodies *bodies, const gl_bodies_pass *pass,
     double focal = 0.5 * (view->camera.fx + view->camera.fy);
     double z = rlf_transform(&view->T_picture_world, body->T_world_body.p).z;
     set_place(bodies, view, body, scale.scale, rlf_vec3_make(0, 0, 0));
-    set_color(bodies, pass, body, white);
+    set_color(bodies, body, white);
+    gl_probes_set_material(&bodies->uniforms.probe, body_material_of(body->shape.type));
     glUniform1i(bodies->uniforms.has_skin, 0);
     glUniform1f(bodies->uniforms.shift, (GLfloat)(scale.half_height / scale.scale.y));
     glUniform1f(bodies->uniforms.layer, (GLfloat)body_texture_kind_of(body->shape.type));
@@ -334,7 +346,9 @@ static void draw_model(const gl_bodies *bodies, const gl_bodies_pass *pass,
     const gl_model *item = gl_models_bind(bodies->models, look->model);
     for (int32_t i = 0; i < look->model->part_count; i++) {
         const rlf_model_part *part = &look->model->parts[i];
-        set_color(bodies, pass, body, part->color);
+        set_color(bodies, body, part->color);
+        gl_probes_set_material(&bodies->uniforms.probe,
+                               (probe_material){part->metallic, 1.0f - part->gloss});
         gl_models_draw_part(bodies->models, item, part);
     }
 }
@@ -387,6 +401,7 @@ void gl_bodies_draw(const gl_bodies *bodies, const gl_bodies_pass *pass,
 {
     const rlf_body_state *body = &snapshot->bodies[index];
     set_shaders(bodies, pass, snapshot->body_count, index);
+    gl_probes_set(&bodies->uniforms.probe, pass->probes, index);
     gl_shade_set(&bodies->uniforms.shade, pass->shade, index);
     gl_obscurance_set(&bodies->uniforms.near_by, pass->near_by, index);
     if (body->look.model != NULL) {

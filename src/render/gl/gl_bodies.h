@@ -44,8 +44,9 @@ void gl_models_draw_part(const gl_models *models, const gl_model *item, const rl
 typedef struct gl_bodies {
     GLuint program;
     struct {
-        GLint picture_body, camera_body, shift, color, light, layer, level, has_skin, occlusion,
-            noise, intrinsics, shader_count;
+        GLint picture_body, camera_body, picture_camera, shift, color, light, layer, level,
+            has_skin, occlusion, noise, intrinsics, shader_count;
+        gl_probe_uniforms probe;
         gl_caster_uniforms shaders[CASTER_BODIES];
         gl_shade_uniforms shade;
         gl_obscurance_uniforms near_by;
@@ -59,16 +60,10 @@ typedef struct gl_bodies {
     shape_vertex *hull_vertices; /* a batch on its way to hull_buffer */
 } gl_bodies;
 
-/* The real world of soft occlusion: see environment/edge_matte.h. */
-typedef struct gl_soft_real {
-    const gl_texture *near_z, *far_z, *cover;
-    const rlf_depth_noise *noise;
-} gl_soft_real;
-
 /* What all bodies of a picture share. */
 typedef struct gl_bodies_pass {
     const gl_view *view;
-    const float *light_color;     /* three shares of the bodies' colours */
+    const gl_probes *probes;      /* of the snapshot's bodies */
     rlf_vec3 light_direction;     /* depth camera frame, from the light into the scene */
     const gl_texture *backdrop;   /* shows through where the real world hides a part of a pixel */
     const gl_texture *real_depth; /* z in the picture's camera per pixel; NULL = none */

@@ -10,6 +10,7 @@ const char gl_caster_glsl[] =
     "    vec3 half_size;\n"
     "    vec3 to_light;\n" /* body frame */
     "    vec4 numbers;\n"  /* round, near_m, length_m, penumbra */
+    "    float crease;\n"
     "};\n"
     "const float caster_spread = 0.12;\n"
     "vec2 light_lost(caster c, vec2 ray, float z)\n"
@@ -25,11 +26,13 @@ const char gl_caster_glsl[] =
     "    float pass = length(e - clamp(e, -c.half_size, c.half_size));\n"
     "    float width = c.numbers.w + caster_spread * t;\n"
     "    float hidden = clamp(0.5 + (c.numbers.x - pass) / width, 0.0, 1.0);\n"
-    "    hidden = t > 0.0 ? hidden * max(0.0, 1.0 - t / c.numbers.z) : 0.0;\n"
+    "    hidden *= max(0.0, 1.0 - t / c.numbers.z) * clamp(t / c.numbers.w, 0.0, 1.0);\n"
     "    float behind = max(0.0, -dot(p, vec3(ray, 1.0)));\n"
     "    float square = dot(p, p) * (1.0 + dot(ray, ray));\n"
     "    float facing = 1.0 - behind * behind / (square + 1e-12);\n"
-    "    return vec2(close * close, hidden) * facing;\n"
+    "    float fourth = close * close * close * close;\n"
+    "    float creased = mix(facing, 1.0, c.crease * fourth * fourth);\n"
+    "    return vec2(close * close * creased, hidden * facing);\n"
     "}\n";
 
 static GLint find(GLuint program, const char *name, const char *field)
@@ -41,9 +44,9 @@ static GLint find(GLuint program, const char *name, const char *field)
 
 gl_caster_uniforms gl_caster_find_uniforms(GLuint program, const char *name)
 {
-    gl_caster_uniforms u = {find(program, name, "center"), find(program, name, "to_body"),
+    gl_caster_uniforms u = {find(program, name, "center"),    find(program, name, "to_body"),
                             find(program, name, "half_size"), find(program, name, "to_light"),
-                            find(program, name, "numbers")};
+                            find(program, name, "numbers"),   find(program, name, "crease")};
     return u;
 }
 
@@ -57,5 +60,6 @@ void gl_caster_set_uniforms(const gl_caster_uniforms *uniforms, const caster *c)
     glUniformMatrix3fv(uniforms->to_body, 1, GL_FALSE, columns);
     glUniform3fv(uniforms->half_size, 1, c->half);
     glUniform3fv(uniforms->to_light, 1, c->to_light);
+    glUniform1f(uniforms->crease, c->crease);
     glUniform4f(uniforms->numbers, c->round, c->near_m, c->length_m, c->penumbra);
 }

@@ -14,6 +14,7 @@
 #include "environment/light.h"
 #include "environment/real_depth.h"
 #include "environment/edge_matte.h"
+#include "render/finish.h"
 #include "render/render.h"
 #include "render/soft/draw.h"
 
@@ -29,6 +30,8 @@ typedef struct gl_compositor {
     int32_t caster_capacity;
     gl_shade shade;        /* of what real things take */
     gl_obscurance near_by; /* of the light around */
+    gl_probes probes;
+    finish finish;         /* of the picture that is read back */
     rlf_image_rgba8 image; /* read back */
     rlf_plane_u8 matte;
 
@@ -57,6 +60,7 @@ static void destroy_gl(gl_compositor *c)
     gl_texture_destroy(&c->far_texture);
     gl_texture_destroy(&c->cover_texture);
     gl_shade_destroy(&c->shade);
+    gl_probes_destroy(&c->probes);
     gl_thesis_destroy(&c->thesis);
     gl_layers_destroy(&c->layers);
     gl_bodies_destroy(&c->bodies);
@@ -69,6 +73,7 @@ static void free_planes(gl_compositor *c)
     real_depth_destroy(&c->real);
     light_direction_destroy(&c->direction);
     edge_matte_destroy(&c->edges);
+    finish_destroy(&c->finish);
     rlf_compositor_destroy(&c->soft);
     gl_obscurance_destroy(&c->near_by);
     rlf_free(c->casters);
@@ -100,6 +105,9 @@ static rlf_result create_planes(gl_compositor *c)
     c->image = (rlf_image_rgba8){rlf_alloc_array(count, 4), w, h, 4 * (ptrdiff_t)w};
     c->matte = (rlf_plane_u8){rlf_alloc_array(count, 1), w, h, w};
     if (c->image.data == NULL || c->matte.data == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    if (finish_create(w, h, &c->finish) != RLF_OK) {
         return RLF_ERROR_MEMORY;
     }
     if (c->def.occlusion == RLF_OCCLUSION_SOFT) {
@@ -162,7 +170,8 @@ static rlf_result create_gl(gl_compositor *c)
     c->far_texture = gl_texture_create(GL_NEAREST);
     c->cover_texture = gl_texture_create(GL_NEAREST);
     c->shade = gl_shade_create();
-    return check_errors(&c->context);
+    result = gl_probes_create(&c->probes);
+    return result == RLF_OK ? check_errors(&c->context) : result;
 }
 
 static rlf_result render(void *self, const rlf_render_input *input, rlf_render_output *out);
@@ -195,7 +204,7 @@ static rlf_result prepare(const rlf_compositor_def *def, gl_compositor **out)
 }
 
 /* Finishes a prepared compositor with the context it was given; destroys it on failure. */
-static rlf_result finish(gl_compositor *c, rlf_compositor **out)
+static rlf_result complete(gl_compositor *c, rlf_compositor **out)
 {
     gl_context_saved saved;
     rlf_result result;
@@ -232,7 +241,7 @@ static rlf_result create(const rlf_compositor_def *def, bool use_current_context
         return result;
     }
     c->context = context;
-    return finish(c, out);
+    return complete(c, out);
 }
 
 rlf_result gl_compositor_create_offscreen(const rlf_compositor_def *def, gl_api api,
@@ -263,11 +272,19 @@ static bool has_edges(const gl_compositor *c, const rlf_render_input *input)
     return has_bodies(input) && c->def.occlusion == RLF_OCCLUSION_SOFT;
 }
 
+/* Unit, picture camera frame. */
+static rlf_vec3 to_light_of(const gl_compositor *c)
+{
+    return rlf_neg(rlf_rotate(c->view.T_picture_camera.q, c->direction.now));
+}
+
 static rlf_result update_real_depth(gl_compositor *c, const rlf_render_input *input)
 {
     edge_matte *s = has_edges(c, input) ? &c->edges : NULL;
     if (s != NULL) {
-        render_place_bodies(s, &c->view.camera, &c->view.T_picture_world, input->snapshot);
+        const render_casters casters = {c->casters, input->snapshot->body_count, to_light_of(c)};
+        render_place_bodies(s, &c->view.camera, &c->view.T_picture_world, input->snapshot,
+                            &casters);
     }
     const real_windows all = {{{0, 0, c->real.z.width, c->real.z.height}}, 1};
     const observation now = render_observation(input);
@@ -292,7 +309,7 @@ static void update_edges(gl_compositor *c, const rlf_render_input *input)
     gl_texture_upload_u8(&c->cover_texture, s->cover.data, width, height);
 }
 
-static rlf_result place_casters(gl_compositor *c, const rlf_snapshot *snapshot, rlf_vec3 to_light)
+static rlf_result place_casters(gl_compositor *c, const rlf_snapshot *snapshot)
 {
     if (snapshot->body_count > c->caster_capacity) {
         rlf_free(c->casters);
@@ -304,7 +321,8 @@ static rlf_result place_casters(gl_compositor *c, const rlf_snapshot *snapshot, 
         }
     }
     for (int32_t i = 0; i < snapshot->body_count; i++) {
-        (void)caster_make(&snapshot->bodies[i], &c->view.T_picture_world, to_light, &c->casters[i]);
+        (void)caster_make(&snapshot->bodies[i], &c->view.T_picture_world, to_light_of(c),
+                          &c->casters[i]);
     }
     return RLF_OK;
 }
@@ -335,13 +353,22 @@ static bool has_real_ambient(const gl_compositor *c)
     return c->def.enable_real_ambient && has_shadows(c);
 }
 
+static gl_soft_real soft_real(const gl_compositor *c)
+{
+    return (gl_soft_real){&c->near_texture, &c->far_texture, &c->cover_texture, &c->def.rig.noise};
+}
+
 /* The colour image, or depth in grey when the frame has none, and the bodies' shadows. */
 static rlf_result draw_backdrop(gl_compositor *c, const rlf_render_input *input)
 {
     rlf_result result = RLF_OK;
     const rlf_rig *rig = &c->def.rig;
     bool has_color = input->frame->color.data != NULL;
-    if (!has_color || has_bodies(input)) {
+    const bool is_shadowed = has_bodies(input) && has_shadows(c);
+    if (is_shadowed) {
+        result = place_casters(c, input->snapshot);
+    }
+    if (result == RLF_OK && (!has_color || has_bodies(input))) {
         result = update_real_depth(c, input);
     }
     if (result != RLF_OK) {
@@ -358,16 +385,13 @@ static rlf_result draw_backdrop(gl_compositor *c, const rlf_render_input *input)
     if (has_edges(c, input)) {
         update_edges(c, input);
     }
-    if (has_bodies(input) && has_shadows(c)) {
-        rlf_vec3 light = rlf_rotate(c->view.T_picture_camera.q, c->direction.now);
-        gl_backdrop_shadows shadows = {&c->view, &c->depth_texture, rlf_neg(light), NULL,
-                                       input->snapshot->body_count};
-        result = place_casters(c, input->snapshot, shadows.to_light);
-        shadows.casters = c->casters;
-        if (result == RLF_OK) {
-            gl_backdrop_draw_shadows(&c->backdrop, &shadows);
-        }
-        if (result == RLF_OK && has_real_shade(c)) {
+    if (is_shadowed) {
+        const gl_soft_real sides = soft_real(c);
+        const gl_backdrop_shadows shadows = {
+            &c->view,       &c->depth_texture, has_edges(c, input) ? &sides : NULL,
+            to_light_of(c), c->casters,        input->snapshot->body_count};
+        gl_backdrop_draw_shadows(&c->backdrop, &shadows);
+        if (has_real_shade(c)) {
             result = update_shade(c, input, shadows.to_light);
         }
         if (result == RLF_OK && has_real_ambient(c)) {
@@ -389,14 +413,13 @@ static bool is_drawable(const rlf_body_state *body)
 static void draw_bodies(gl_compositor *c, const rlf_snapshot *snapshot)
 {
     rlf_occlusion occlusion = c->def.occlusion;
-    gl_soft_real soft_real = {&c->near_texture, &c->far_texture, &c->cover_texture,
-                              &c->def.rig.noise};
+    const gl_soft_real sides = soft_real(c);
     gl_bodies_pass pass = {&c->view,
-                           c->lamp.color,
+                           &c->probes,
                            c->direction.now,
                            &c->backdrop.texture,
                            occlusion == RLF_OCCLUSION_DEPTH ? &c->depth_texture : NULL,
-                           occlusion == RLF_OCCLUSION_SOFT ? &soft_real : NULL,
+                           occlusion == RLF_OCCLUSION_SOFT ? &sides : NULL,
                            has_shadows(c) ? c->casters : NULL,
                            has_real_shade(c) ? &c->shade : NULL,
                            has_real_ambient(c) ? &c->near_by : NULL};
@@ -439,6 +462,17 @@ static rlf_result draw_wireframe(gl_compositor *c, const rlf_surface *surface)
     return RLF_OK;
 }
 
+static rlf_result update_probes(gl_compositor *c, const rlf_render_input *input)
+{
+    const probe_def def = {.rig = &c->def.rig,
+                           .lamp = c->lamp.color,
+                           .T_picture_depth = c->view.T_picture_camera,
+                           .T_picture_world = c->view.T_picture_world,
+                           .pool = c->def.pool,
+                           .is_on = has_real_ambient(c)};
+    return gl_probes_update(&c->probes, &def, input);
+}
+
 /* Nothing that another user of a window's context left on may change the picture. */
 static void reset_state(void)
 {
@@ -473,7 +507,10 @@ static rlf_result draw(gl_compositor *c, const rlf_render_input *input)
     if (input->view == RLF_VIEW_MESH) {
         result = draw_wireframe(c, input->surface);
     } else if (has_bodies(input)) {
-        draw_bodies(c, input->snapshot);
+        result = update_probes(c, input);
+        if (result == RLF_OK) {
+            draw_bodies(c, input->snapshot);
+        }
     }
     gl_target_read(&c->target, &c->image);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -513,6 +550,10 @@ static rlf_result render(void *self, const rlf_render_input *input, rlf_render_o
         return result;
     }
     split_matte(c);
+    finish_look(&c->finish, input->frame);
+    if (has_bodies(input)) {
+        finish_picture(&c->finish, c->def.pool, &c->image, &c->matte);
+    }
     if (c->def.enable_overlay) {
         soft_draw_overlay(&c->image, input);
     }

@@ -48,7 +48,7 @@ bool gl_context_is_lost(const gl_context *context);
 
 /* ---- gl_program.c: shader programs for OpenGL 3.3 and ES 3.0 from one source. */
 
-enum { GL_PROGRAM_PIECES = 3 };
+enum { GL_PROGRAM_PIECES = 4 };
 
 typedef struct gl_program_source {
     const char *name;                        /* for messages */

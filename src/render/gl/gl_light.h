@@ -5,12 +5,13 @@
 
 #include "render/caster.h"
 #include "render/gl/gl_context.h"
+#include "render/probe.h"
 #include "render/real_shade.h"
 
 /* ---- gl_caster.c: bodies that take light away, in shaders: the same formulas as caster.c. */
 
 typedef struct gl_caster_uniforms {
-    GLint center, to_body, half_size, to_light, numbers;
+    GLint center, to_body, half_size, to_light, numbers, crease;
 } gl_caster_uniforms;
 
 /* GLSL: `struct caster` and `vec2 light_lost(caster c, vec2 ray, float z)`: shares of the light
@@ -72,6 +73,31 @@ gl_obscurance_uniforms gl_obscurance_find_uniforms(GLuint program);
 /* For the program in use and body `index`; NULL = real surfaces take nothing. */
 void gl_obscurance_set(const gl_obscurance_uniforms *uniforms, const gl_obscurance *near_by,
                        int32_t index);
+
+/* ---- gl_probe.c: light by place, and gloss: see probe.h. */
+
+/* GLSL: `vec3 sent(vec3 color, vec3 n, vec3 to_lamp, vec3 to_eye, vec2 left)`: the codes of what a
+ * surface of a linear colour sends. */
+extern const char gl_probe_glsl[];
+
+/* The probes of a picture's bodies, and their maps. */
+typedef struct gl_probes {
+    probe_set *set;
+    float *rows;
+    gl_texture texture;
+} gl_probes;
+
+typedef struct gl_probe_uniforms {
+    GLint around, rough, direct, row, material;
+} gl_probe_uniforms;
+
+rlf_result gl_probes_create(gl_probes *out);
+void gl_probes_destroy(gl_probes *probes);
+rlf_result gl_probes_update(gl_probes *probes, const probe_def *def, const rlf_render_input *input);
+gl_probe_uniforms gl_probe_find_uniforms(GLuint program);
+/* For the program in use: body `index`, and what its surface is of. */
+void gl_probes_set(const gl_probe_uniforms *uniforms, const gl_probes *probes, int32_t index);
+void gl_probes_set_material(const gl_probe_uniforms *uniforms, probe_material material);
 
 /* ---- gl_shade.c: what real things take of bodies' light, for the bodies' shader. */
 
@@ -147,6 +173,12 @@ void gl_shade_set(const gl_shade_uniforms *uniforms, const gl_shade *shade, int3
     "        + hides(real_depth, pixel + ivec2(0, 1), z);\n"                                       \
     "    return 1.0 - hidden / 6.0;\n"                                                             \
     "}\n"
+
+/* The real world of soft occlusion: see environment/edge_matte.h. */
+typedef struct gl_soft_real {
+    const gl_texture *near_z, *far_z, *cover;
+    const rlf_depth_noise *noise;
+} gl_soft_real;
 
 /* GLSL: `float share_of_soft(near_z, far_z, cover, noise, z)`: as soft occlusion in soft/soft.h. A
  * pixel shows `cover` of near_z and the rest of far_z. */

@@ -150,7 +150,7 @@ static double range_of(const screen_corner *c, int count, bool is_y, double *out
 }
 
 /* The face's planes; its first three corners span it. */
-static void set_planes(soft_face *f, const screen_corner *c, int count)
+static void set_planes(soft_face *f, const screen_corner *c, int count, rlf_vec3 to_light)
 {
     double area = area_of(c);
     double values[3] = {c[0].inverse_z, c[1].inverse_z, c[2].inverse_z};
@@ -165,8 +165,9 @@ static void set_planes(soft_face *f, const screen_corner *c, int count)
     }
     f->is_lit = false;
     for (int i = 0; i < count; i++) {
-        double ambient = (BODY_LIGHT_AMBIENT + 1e-4) * c[i].inverse_z;
-        f->is_lit = f->is_lit || c[i].attribute[SOFT_LIGHT] > ambient;
+        const double *n = c[i].attribute + SOFT_NORMAL;
+        const double facing = n[0] * to_light.x + n[1] * to_light.y + n[2] * to_light.z;
+        f->is_lit = f->is_lit || facing > 1e-4 * c[i].inverse_z;
     }
     f->inverse_z_min = (float)low;
     f->inverse_z_max = (float)high;
@@ -196,7 +197,7 @@ static void add_screen_face(soft *s, const screen_corner *c, int count, int32_t 
         /* A triangle's fourth edge is a point: level. */
         set_edge(f, e, &c[e < count ? e : 0], &c[e + 1 < count ? e + 1 : 0]);
     }
-    set_planes(f, c, count);
+    set_planes(f, c, count, s->to_light);
     f->y_begin = first_cell(top, s->camera.height);
     f->y_end = end_cell(bottom, s->camera.height);
     f->body = body_index;

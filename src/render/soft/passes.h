@@ -19,7 +19,8 @@ void soft_draw_background(const soft *s, int32_t begin, int32_t end);
 
 /* What the picture is seen from. */
 void soft_set_viewpoint(soft *s, const rlf_camera *camera, const rlf_pose *T_picture_depth);
-/* All bodies in the picture as faces; then, with what is real read, what takes light from them. */
+/* All bodies in the picture as faces, with the light where they are; then, with what is real read,
+ * what takes light from them. */
 rlf_result soft_scene_build(soft *s, const rlf_render_input *input);
 void soft_scene_light(soft *s, const rlf_render_input *input);
 

@@ -14,7 +14,6 @@
 typedef struct body_transform {
     rlf_mat3 R; /* T_picture_body */
     rlf_vec3 p;
-    rlf_vec3 to_light; /* in the body's frame */
     shape_mesh_scale scale;
 } body_transform;
 
@@ -75,14 +74,13 @@ static soft_corner transform_corner(const body_transform *T, const shape_vertex 
     rlf_vec3 p = {v->position[0] * T->scale.scale.x,
                   v->position[1] * T->scale.scale.y + v->shift * T->scale.half_height,
                   v->position[2] * T->scale.scale.z};
-    double facing =
-        v->normal[0] * T->to_light.x + v->normal[1] * T->to_light.y + v->normal[2] * T->to_light.z;
+    const rlf_vec3 n = rlf_mat3_mul_vec(
+        &T->R, rlf_vec3_make((double)v->normal[0], (double)v->normal[1], (double)v->normal[2]));
     soft_corner c;
     c.p = rlf_add(rlf_mat3_mul_vec(&T->R, p), T->p);
     c.attribute[SOFT_S] = v->uv[0];
     c.attribute[SOFT_T] = v->uv[1];
-    c.attribute[SOFT_LIGHT] =
-        (float)(BODY_LIGHT_AMBIENT + BODY_LIGHT_DIFFUSE * rlf_max(facing, 0.0));
+    caster_to_floats(n, c.attribute + SOFT_NORMAL);
     return c;
 }
 
@@ -125,9 +123,7 @@ static void add_hull(soft *s, const body_transform *T, const rlf_shape *shape, i
 static void add_shape(soft *s, const rlf_shape *shape, const rlf_pose *T_picture_body, int32_t body)
 {
     rlf_quat q = rlf_quat_normalize(T_picture_body->q);
-    body_transform transform = {rlf_quat_to_mat3(q), T_picture_body->p,
-                                rlf_rotate(rlf_quat_conjugate(q), s->to_light),
-                                shape_mesh_scale_of(shape)};
+    body_transform transform = {rlf_quat_to_mat3(q), T_picture_body->p, shape_mesh_scale_of(shape)};
     if (shape->type == RLF_SHAPE_HULL) {
         add_hull(s, &transform, shape, body);
     } else {
@@ -138,8 +134,10 @@ static void add_shape(soft *s, const rlf_shape *shape, const rlf_pose *T_picture
 static void choose_look(soft *s, const rlf_body_state *state, soft_body *body)
 {
     for (int i = 0; i < 3; i++) {
-        body->color[i] = (float)(255.0 * rlf_clamp(state->color[i], 0.0, 1.0)) * s->lamp.color[i];
+        const float code = (float)rlf_clamp((double)state->color[i], 0.0, 1.0);
+        body->color[i] = code * code;
     }
+    body->material = body_material_of(state->shape.type);
     double focal = 0.5 * (s->camera.fx + s->camera.fy);
     int32_t level = body_texture_level_of(&state->shape, body->center.z, focal);
     body->texture =
@@ -284,6 +282,25 @@ static void place_real_shades(soft *s, const rlf_surface *surface)
     }
 }
 
+/* Light by place, for the bodies in the picture. */
+static rlf_result place_probes(soft *s, const rlf_render_input *input)
+{
+    const rlf_pose T_camera_world = rlf_pose_invert(&input->T_world_camera);
+    const probe_def def = {.rig = &s->def.rig,
+                           .lamp = s->lamp.color,
+                           .T_picture_depth = s->T_picture_depth,
+                           .T_picture_world = rlf_pose_mul(&s->T_picture_depth, &T_camera_world),
+                           .pool = s->def.pool,
+                           .is_on = s->def.enable_real_ambient && s->scene.caster_count > 0};
+    const rlf_result result =
+        probe_set_update(s->probes, &def, input->frame, input->surface, input->snapshot);
+    for (int32_t i = 0; i < s->scene.body_count && result == RLF_OK; i++) {
+        soft_body *body = &s->scene.bodies[i];
+        body->probe = &s->probes->probes[s->probes->of[body->index]];
+    }
+    return result;
+}
+
 rlf_result soft_scene_build(soft *s, const rlf_render_input *input)
 {
     const rlf_snapshot *snapshot = input->snapshot;
@@ -304,7 +321,7 @@ rlf_result soft_scene_build(soft *s, const rlf_render_input *input)
         sort_bodies(&s->scene);
         place_casters(s, snapshot, &T_picture_world);
     }
-    return result;
+    return result == RLF_OK && s->scene.body_count > 0 ? place_probes(s, input) : result;
 }
 
 void soft_scene_light(soft *s, const rlf_render_input *input)

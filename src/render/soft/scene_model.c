@@ -43,7 +43,6 @@ static void transform(soft *s, const rlf_look *look, const rlf_pose *T_picture_b
 {
     const rlf_quat q = rlf_quat_normalize(T_picture_body->q);
     const rlf_mat3 R = rlf_quat_to_mat3(q);
-    const rlf_vec3 to_light = rlf_rotate(rlf_quat_conjugate(q), s->to_light);
     for (int32_t i = 0; i < look->model->vertex_count; i++) {
         const rlf_model_vertex *v = &look->model->vertices[i];
         rlf_vec3 n = {(double)v->normal[0], (double)v->normal[1], (double)v->normal[2]};
@@ -51,8 +50,7 @@ static void transform(soft *s, const rlf_look *look, const rlf_pose *T_picture_b
         c->p = rlf_add(rlf_mat3_mul_vec(&R, body_look_point(look, v)), T_picture_body->p);
         c->attribute[SOFT_S] = v->uv[0];
         c->attribute[SOFT_T] = v->uv[1];
-        c->attribute[SOFT_LIGHT] =
-            (float)(BODY_LIGHT_AMBIENT + BODY_LIGHT_DIFFUSE * rlf_max(rlf_dot(n, to_light), 0.0));
+        caster_to_floats(rlf_mat3_mul_vec(&R, n), c->attribute + SOFT_NORMAL);
     }
 }
 
@@ -114,8 +112,9 @@ rlf_result soft_scene_add_model(soft *s, const rlf_look *look, const rlf_pose *T
     for (int32_t i = 0; i < model->part_count && result == RLF_OK; i++) {
         const rlf_model_part *part = &model->parts[i];
         soft_skin skin = {.texture = part->texture >= 0 ? &model->textures[part->texture] : NULL};
+        skin.material = (probe_material){part->metallic, 1.0f - part->gloss};
         for (int k = 0; k < 3; k++) {
-            skin.color[k] = s->scene.bodies[body].color[k] * part->color[k];
+            skin.color[k] = s->scene.bodies[body].color[k] * part->color[k] * part->color[k];
         }
         const int32_t end = part->first_triangle + part->triangle_count;
         for (int32_t t = part->first_triangle; t < end && result == RLF_OK; t += AT_ONCE) {

@@ -157,7 +157,12 @@ RLF_KERNEL_PART void shade_run(const shading *job, int32_t row_index, int32_t x,
         const int32_t at = v->count;
         if (cover_lanes(job, row_index, x + i, count, v->coverage + at)) {
             fill_inverse_z(&r, i, v->z + at);
-            fill_ramp(r.attribute[SOFT_LIGHT], i, v->light + at);
+            for (int k = 0; k < 3; k++) {
+                fill_ramp(r.attribute[SOFT_NORMAL + k], i, v->n[k] + at);
+            }
+            const ramp ray = {job->s->ray_x0 + job->s->ray_step_x * (float)x, job->s->ray_step_x};
+            fill_ramp(ray, i, v->ray_x + at);
+            fill_all(job->s->ray_y0 + job->s->ray_step_y * (float)row->y, v->ray_y + at);
             fill_ramp(r.attribute[SOFT_S], i, v->s + at);
             fill_ramp(r.attribute[SOFT_T], i, v->t + at);
             fill_light(nodes, first_node + i / px, px, at, v);
@@ -265,18 +270,24 @@ RLF_KERNEL void soft_shade_faces(const soft *s, const soft_ends *ends, int32_t c
 {
     soft_stream stream;
     stream.body = NULL;
+    stream.material = (probe_material){0.0f, 0.0f};
     stream.count = stream.segment_count = 0;
     for (int32_t i = 0; i < count; i++) {
         const int32_t id = ends[i].face;
         const soft_face *face = &s->scene.faces[id];
         const soft_body *body = &s->scene.bodies[face->body];
         const bool has_skin = face->skin > 0;
-        if (stream.body != body || stream.has_skin != has_skin) {
+        const probe_material material =
+            has_skin ? s->scene.skins[face->skin].material : body->material;
+        if (stream.body != body || stream.has_skin != has_skin ||
+            material.metallic != stream.material.metallic ||
+            material.roughness != stream.material.roughness) {
             if (stream.count > 0) {
                 soft_stream_flush(s, group, &stream);
             }
             stream.body = body;
             stream.has_skin = has_skin;
+            stream.material = material;
         }
         const shading job = {
             s, group, face, &ends[i], id, fading_range(face, &group->rows[0].real), &stream};

@@ -1,7 +1,7 @@
 /* Soft shadows of the bodies on the real surfaces: see caster.h.
  *
  * Where the real depth is smooth the light is worked out every few pixels and is linear between;
- * around edges every CASTER_BLOCK pixels have their own. */
+ * around edges every pixel has its own, and that of both sides is mixed as the matte says. */
 #include "render/soft/passes.h"
 
 #include "environment/depth_edge.h"
@@ -27,14 +27,47 @@ static int32_t at_most(int32_t a, int32_t b)
     return a < b ? a : b;
 }
 
+/* True when the matte of an edge reaches into a tile. */
+static bool has_edge(const shade_band *b, int32_t column)
+{
+    const edge_matte *l = &b->s->edges;
+    const int32_t first = column * (WIDTH / EDGE_MATTE_TILE);
+    bool any = false;
+    for (int32_t k = first; b->s->def.occlusion == RLF_OCCLUSION_SOFT &&
+                            k < at_most(first + WIDTH / EDGE_MATTE_TILE, l->columns);
+         k++) {
+        any = any || (l->marks[b->begin / EDGE_MATTE_TILE * l->columns + k] & EDGE_MATTE_EDGE) != 0;
+    }
+    return any;
+}
+
+/* Depths of the farther and the nearer surface of samples of a tile with an edge. */
+static void gather_sides(const shade_band *b, int32_t column, soft_shade_tile *tile)
+{
+    const edge_matte *l = &b->s->edges;
+    const uint8_t *marks = l->marks + b->begin / EDGE_MATTE_TILE * l->columns;
+    for (int32_t i = 0; i < tile->count; i++) {
+        const int32_t x = at_most(column * WIDTH + i % WIDTH, b->s->camera.width - 1);
+        const int32_t y = at_most(b->begin + i / WIDTH, b->s->camera.height - 1);
+        tile->near_z[i] = tile->z[i];
+        tile->near_light[i] = 1.0f;
+        if ((marks[x / EDGE_MATTE_TILE] & EDGE_MATTE_FILLED) != 0) {
+            const float near_z = rlf_f32_row(&l->near_z, y)[x];
+            const float far_z = rlf_f32_row(&l->far_z, y)[x];
+            tile->near_z[i] = near_z < EDGE_MATTE_FAR ? near_z : 0.0f;
+            tile->z[i] = far_z < EDGE_MATTE_FAR ? far_z : 0.0f;
+        }
+    }
+}
+
 /* Samples of the tile `step` pixels apart, the last ones `beyond` its last pixels; at the picture's
  * edge they repeat. Whole lanes: those beyond have no depth. */
 static void gather(const shade_band *b, int32_t column, int32_t step, int32_t beyond,
                    soft_shade_tile *tile)
 {
     const soft *s = b->s;
-    int32_t at[WIDTH / CASTER_BLOCK];
-    float ray_x[WIDTH / CASTER_BLOCK];
+    int32_t at[WIDTH];
+    float ray_x[WIDTH];
     const int32_t columns = WIDTH / step + beyond;
     const int32_t rows = SOFT_BAND_ROWS / step + beyond;
     for (int32_t k = 0; k < columns; k++) {
@@ -114,6 +147,12 @@ static void bound(shade_band *b, int32_t column)
     soft_shade_tile *tile = &b->tiles[column];
     float range[2];
     depth_range(tile->z, tile->count, range);
+    if (tile->has_edge) {
+        float nearer[2];
+        depth_range(tile->near_z, tile->count, nearer);
+        range[0] = nearer[0] < range[0] ? nearer[0] : range[0];
+        range[1] = nearer[1] > range[1] ? nearer[1] : range[1];
+    }
     const float near_z = range[0];
     const float far_z = range[1];
     const int32_t last = tile->columns * tile->rows - 1;
@@ -134,21 +173,34 @@ static void know_tile(shade_band *b, int32_t column)
 {
     soft_shade_tile *tile = &b->tiles[column];
     gather(b, column, b->s->shade_px, 1, tile);
-    if (!is_smooth(tile->z, tile->columns, tile->rows)) {
-        gather(b, column, CASTER_BLOCK, 0, tile);
+    tile->has_edge = has_edge(b, column);
+    if (tile->has_edge || !is_smooth(tile->z, tile->columns, tile->rows)) {
+        gather(b, column, 1, 0, tile);
+    }
+    if (tile->has_edge) {
+        gather_sides(b, column, tile);
     }
     bound(b, column);
     tile->is_known = true;
 }
 
+static void shade_points(const caster *c, int32_t takes, const caster_points *points, float *light)
+{
+    if ((takes & CASTER_TAKES_AMBIENT) != 0) {
+        caster_take_ambient(c, points, (float)CASTER_AMBIENT_SHARE, light);
+    }
+    if ((takes & CASTER_TAKES_DIRECT) != 0) {
+        caster_take_direct(c, points, (float)CASTER_DIRECT_SHARE, light);
+    }
+}
+
 static void shade_tile(const caster *c, int32_t takes, soft_shade_tile *tile)
 {
     const caster_points points = {tile->x, tile->y, tile->z, tile->count};
-    if ((takes & CASTER_TAKES_AMBIENT) != 0) {
-        caster_take_ambient(c, &points, (float)CASTER_AMBIENT_SHARE, tile->light);
-    }
-    if ((takes & CASTER_TAKES_DIRECT) != 0) {
-        caster_take_direct(c, &points, (float)CASTER_DIRECT_SHARE, tile->light);
+    shade_points(c, takes, &points, tile->light);
+    if (tile->has_edge) {
+        const caster_points nearer = {tile->x, tile->y, tile->near_z, tile->count};
+        shade_points(c, takes, &nearer, tile->near_light);
     }
     tile->is_shaded = true;
 }
@@ -213,10 +265,8 @@ RLF_KERNEL static void spread_light(const soft_shade_tile *tile, int32_t row, fl
     const int32_t columns = tile->columns;
     const float *above = tile->light + row / step * columns;
     float node[WIDTH / 4 + 1];
-    if (step == CASTER_BLOCK) {
-        for (int32_t x = 0; x < WIDTH; x++) {
-            light[x] = above[x / CASTER_BLOCK];
-        }
+    if (step == 1) {
+        memcpy(light, above, WIDTH * sizeof(*light));
         return;
     }
     const float down = (float)(row % step) / (float)step;
@@ -243,11 +293,28 @@ RLF_KERNEL static bool is_light(const float *restrict light, int32_t count)
     return dark == 0;
 }
 
+/* The matte's share of the nearer surface's light in row y, over the farther one's. */
+static void mix_sides(const shade_band *b, int32_t column, int32_t y, int32_t count, float *light)
+{
+    const edge_matte *l = &b->s->edges;
+    const soft_shade_tile *tile = &b->tiles[column];
+    const float *nearer = tile->near_light + (ptrdiff_t)(y - b->begin) * WIDTH;
+    const uint8_t *marks = l->marks + b->begin / EDGE_MATTE_TILE * l->columns;
+    const uint8_t *cover = rlf_u8_row(&l->cover, y);
+    for (int32_t i = 0; i < count; i++) {
+        const int32_t x = column * WIDTH + i;
+        if ((marks[x / EDGE_MATTE_TILE] & EDGE_MATTE_FILLED) != 0) {
+            light[i] += (nearer[i] - light[i]) * (float)cover[x] * (1.0f / 255.0f);
+        }
+    }
+}
+
 static void darken_tile(const shade_band *b, int32_t column)
 {
     const soft *s = b->s;
     const soft_shade_tile *tile = &b->tiles[column];
-    if (is_light(tile->light, tile->count)) {
+    if (is_light(tile->light, tile->count) &&
+        !(tile->has_edge && !is_light(tile->near_light, tile->count))) {
         return;
     }
     int32_t x0 = column * WIDTH;
@@ -255,6 +322,9 @@ static void darken_tile(const shade_band *b, int32_t column)
     float light[WIDTH];
     for (int32_t y = b->begin; y < b->end; y++) {
         spread_light(tile, y - b->begin, light);
+        if (tile->has_edge) {
+            mix_sides(b, column, y, count, light);
+        }
         darken(light, count, rlf_rgba8_row(&s->image, y) + 4 * (ptrdiff_t)x0);
     }
 }

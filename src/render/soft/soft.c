@@ -35,12 +35,30 @@ static void destroy(void *self)
     for (int32_t i = 0; s->shade_tiles != NULL && i < s->worker_count; i++) {
         rlf_free(s->shade_tiles[i]);
     }
-    void *parts[15] = {s->workers,           s->image.data,        s->matte.data,
-                       s->scene.faces,       s->scene.bodies,      s->corners,
-                       s->column_left,       s->column_weight,     s->grid_image.data,
-                       s->shade_tiles,       s->scene.casters,     s->scene.reach,
-                       s->scene.real_shades, s->scene.obscurances, s->scene.skins};
-    for (int i = 0; i < 15; i++) {
+    if (s->probes != NULL) {
+        probe_set_destroy(s->probes);
+    }
+    if (s->finish != NULL) {
+        finish_destroy(s->finish);
+    }
+    void *parts[17] = {s->workers,
+                       s->image.data,
+                       s->matte.data,
+                       s->scene.faces,
+                       s->scene.bodies,
+                       s->corners,
+                       s->column_left,
+                       s->column_weight,
+                       s->grid_image.data,
+                       s->shade_tiles,
+                       s->scene.casters,
+                       s->scene.reach,
+                       s->scene.real_shades,
+                       s->scene.obscurances,
+                       s->scene.skins,
+                       s->probes,
+                       s->finish};
+    for (int i = 0; i < 17; i++) {
         rlf_free(parts[i]);
     }
     rlf_free(s);
@@ -136,17 +154,20 @@ static rlf_result allocate(soft *s)
     s->scene.reach = rlf_alloc_array(BODIES_AT_START, sizeof(*s->scene.reach));
     s->scene.real_shades = rlf_alloc_array(BODIES_AT_START, sizeof(*s->scene.real_shades));
     s->scene.obscurances = rlf_alloc_array(BODIES_AT_START, sizeof(*s->scene.obscurances));
+    s->probes = rlf_alloc(sizeof(*s->probes));
+    s->finish = rlf_alloc(sizeof(*s->finish));
     s->corners = rlf_alloc_array(SHAPE_MESH_VERTEX_MAX, sizeof(*s->corners));
     s->corner_capacity = SHAPE_MESH_VERTEX_MAX;
     s->column_left = rlf_alloc_array((size_t)width, sizeof(*s->column_left));
     s->column_weight = rlf_alloc_array((size_t)width, sizeof(*s->column_weight));
     if (result != RLF_OK || s->matte.data == NULL || s->scene.bodies == NULL ||
         s->scene.casters == NULL || s->scene.reach == NULL || s->scene.real_shades == NULL ||
-        s->scene.obscurances == NULL || s->corners == NULL || s->column_left == NULL ||
-        s->column_weight == NULL) {
+        s->scene.obscurances == NULL || s->corners == NULL || s->probes == NULL ||
+        s->finish == NULL || s->column_left == NULL || s->column_weight == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    return RLF_OK;
+    probe_set_init(s->probes);
+    return finish_create(width, height, s->finish);
 }
 
 static rlf_result check_def(const rlf_compositor_def *def)
@@ -191,7 +212,8 @@ static void place_bodies(soft *s, const rlf_render_input *input)
 {
     rlf_pose T_camera_world = rlf_pose_invert(&input->T_world_camera);
     rlf_pose T_picture_world = rlf_pose_mul(&s->T_picture_depth, &T_camera_world);
-    render_place_bodies(&s->edges, &s->camera, &T_picture_world, input->snapshot);
+    const render_casters casters = {s->scene.casters, s->scene.caster_count, s->to_light};
+    render_place_bodies(&s->edges, &s->camera, &T_picture_world, input->snapshot, &casters);
 }
 
 static void draw_background_rows(void *context, int32_t begin, int32_t end, int32_t worker)
@@ -222,6 +244,7 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
         return result;
     }
     soft_set_background(s, &input->frame->color);
+    finish_look(s->finish, input->frame);
     if (has_edges && s->real.has_moved) {
         edge_matte_forget(&s->edges);
     }
@@ -230,6 +253,7 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
     }
     if (has_bodies) {
         soft_draw_bodies(s, true);
+        finish_picture(s->finish, s->def.pool, &s->image, &s->matte);
     } else {
         rlf_parallel_for(s->def.pool, s->image.height, SOFT_BAND_ROWS, draw_background_rows, s);
     }

@@ -15,6 +15,8 @@
 #include "relief/model.h"
 #include "render/body_texture.h"
 #include "render/caster.h"
+#include "render/finish.h"
+#include "render/probe.h"
 #include "environment/light.h"
 #include "render/real_shade.h"
 #include "environment/real_depth.h"
@@ -28,7 +30,7 @@
 
 /* ---- scene: what is in the picture, as faces of screen space -------------------------------- */
 
-enum { SOFT_S = 0, SOFT_T = 1, SOFT_LIGHT = 2, SOFT_ATTRIBUTES = 3 };
+enum { SOFT_S = 0, SOFT_T = 1, SOFT_NORMAL = 2, SOFT_ATTRIBUTES = 5 };
 
 /* Corner of a face in the picture camera's frame, metres. */
 typedef struct soft_corner {
@@ -70,14 +72,17 @@ typedef struct soft_face {
 /* What a model's face takes its colours from. */
 typedef struct soft_skin {
     const rlf_model_texture *texture; /* NULL = none */
-    float color[3];                   /* of the part and the body, times 255 */
-    float low[2], high[2];            /* texture coordinates of the face */
+    float color[3];                   /* of the part and the body, linear */
+    probe_material material;
+    float low[2], high[2]; /* texture coordinates of the face */
 } soft_skin;
 
 typedef struct soft_body {
-    int32_t first, end;      /* faces */
-    int32_t y0, y1;          /* rows it may touch: y0 <= y < y1 */
-    float color[3];          /* times 255 */
+    int32_t first, end; /* faces */
+    int32_t y0, y1;     /* rows it may touch: y0 <= y < y1 */
+    float color[3];     /* linear */
+    probe_material material;
+    const light_probe *probe;
     const uint32_t *texture; /* level to sample; a texel's bytes are itself, the next in the row,
                                 and the two below them, the first being the lowest */
     int32_t texture_size;    /* pixels, a power of two */
@@ -192,15 +197,17 @@ typedef struct soft_fit {
 } soft_fit;
 
 #define SOFT_SHADE_WIDTH 32 /* pixels of a tile; it is as high as a band */
-#define SOFT_SHADE_SAMPLES ((SOFT_SHADE_WIDTH / CASTER_BLOCK) * (SOFT_BAND_ROWS / CASTER_BLOCK))
+#define SOFT_SHADE_SAMPLES (SOFT_SHADE_WIDTH * SOFT_BAND_ROWS)
 
 /* A tile of the real world while bodies take light from it. */
 typedef struct soft_shade_tile {
     float x[SOFT_SHADE_SAMPLES], y[SOFT_SHADE_SAMPLES], z[SOFT_SHADE_SAMPLES]; /* caster_points */
     float light[SOFT_SHADE_SAMPLES]; /* share that is left */
-    int32_t step;                    /* pixels from one sample to the next */
-    int32_t columns, rows, count;    /* of samples; count: in whole lanes */
-    bool has_depth, is_known, is_shaded;
+    /* Where the matte of an edge is, that was of what is farther, and this is what is nearer. */
+    float near_z[SOFT_SHADE_SAMPLES], near_light[SOFT_SHADE_SAMPLES];
+    int32_t step;                 /* pixels from one sample to the next */
+    int32_t columns, rows, count; /* of samples; count: in whole lanes */
+    bool has_depth, has_edge, is_known, is_shaded;
 } soft_shade_tile;
 
 typedef struct soft {
@@ -224,7 +231,9 @@ typedef struct soft {
     room_light lamp;
     light_direction direction;
     rlf_vec3 to_light; /* unit, picture camera frame */
-    int32_t shade_px;  /* pixels from one sample of shadows to the next where depth is smooth */
+    probe_set *probes;
+    finish *finish;
+    int32_t shade_px; /* pixels from one sample of shadows to the next where depth is smooth */
     float ray_x0, ray_step_x; /* x / z of pixel column i, without the lens: ray_x0 + i ray_step_x */
     float ray_y0, ray_step_y;
 

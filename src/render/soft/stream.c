@@ -9,20 +9,12 @@
 
 #include <string.h>
 
-/* Depth and light, as far as other things leave it. */
-RLF_KERNEL_PART void finish_light(int32_t count, float *restrict z, float *restrict light,
-                                  const float *restrict ambient, const float *restrict direct)
+RLF_KERNEL_PART void invert(int32_t count, float *restrict z)
 {
-    const float base = (float)BODY_LIGHT_AMBIENT;
     for (int32_t first = 0; first < count; first += SOFT_LANES) {
         RLF_KERNEL_WHOLE
         for (int32_t k = 0; k < SOFT_LANES; k++) {
-            const int32_t i = first + k;
-            float here = 1.0f / z[i];
-            float lit = stream_clamp(light[i] * here, 0.0f, 1.0f);
-            z[i] = here;
-            /* base * ambient + (lit - base) * direct; without loss it is lit itself */
-            light[i] = lit * direct[i] + base * (ambient[i] - direct[i]);
+            z[first + k] = 1.0f / z[first + k];
         }
     }
 }
@@ -60,7 +52,7 @@ RLF_KERNEL_PART void look_up(int32_t count, const uint32_t *restrict texture,
 /* Bilinear: the four neighbours are the bytes of one texel. */
 RLF_KERNEL_PART void filter(int32_t count, const uint32_t *restrict texels,
                             const float *restrict weight_x, const float *restrict weight_y,
-                            float *restrict light)
+                            float *restrict out)
 {
     for (int32_t first = 0; first < count; first += SOFT_LANES) {
         RLF_KERNEL_WHOLE
@@ -72,7 +64,8 @@ RLF_KERNEL_PART void filter(int32_t count, const uint32_t *restrict texels,
             float d = (float)(int32_t)(texels[i] >> 24);
             float top = a + (b - a) * weight_x[i];
             float bottom = c + (d - c) * weight_x[i];
-            light[i] *= (top + (bottom - top) * weight_y[i]) * (1.0f / 255.0f);
+            const float code = (top + (bottom - top) * weight_y[i]) * (1.0f / 255.0f);
+            out[i] = code * code;
         }
     }
 }
@@ -175,35 +168,38 @@ RLF_KERNEL_PART void add(const float *restrict values, float scale, int32_t coun
     }
 }
 
-RLF_KERNEL_PART void multiply(int32_t count, const float *restrict values, float *restrict by)
+/* Codes of what pixels send, as far as they are shown; color linear, of one channel. */
+RLF_KERNEL_PART void encode(const float *restrict color, float scale, const float *restrict times,
+                            const float *restrict plus, const float *restrict shown,
+                            float *restrict out)
 {
-    for (int32_t first = 0; first < count; first += SOFT_LANES) {
-        RLF_KERNEL_WHOLE
-        for (int32_t k = 0; k < SOFT_LANES; k++) {
-            by[first + k] *= values[first + k];
-        }
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
+        const float sent = color[i] * scale * times[i] + plus[i];
+        out[i] = shown[i] * 255.0f * sqrtf(sent < 1.0f ? sent : 1.0f);
     }
 }
 
-/* Adds light of a model's face, as its skin shows it. */
+/* Adds what a model's face sends, as its skin colours it. */
 RLF_KERNEL_PART void add_skin(const soft *s, const soft_stream *stream, const stream_segment *part,
                               const soft_row *row)
 {
     const soft_face *face = &s->scene.faces[part->face];
     const soft_skin *skin = &s->scene.skins[face->skin];
-    const float *light = stream->light + part->at;
     float rgb[3][SOFT_LANES];
-    if (skin->texture == NULL) {
-        for (int k = 0; k < 3; k++) {
-            add(light, skin->color[k], part->count, row->sum[k] + part->x);
-        }
-        return;
+    float codes[SOFT_LANES];
+    if (skin->texture != NULL) {
+        const soft_lanes_at at = {part->x, row->y, part->count};
+        soft_skin_colors(skin, face, at, stream->z + part->at, rgb);
     }
-    const soft_lanes_at at = {part->x, row->y, part->count};
-    soft_skin_colors(skin, face, at, stream->z + part->at, rgb);
     for (int k = 0; k < 3; k++) {
-        multiply(SOFT_LANES, light, rgb[k]);
-        add(rgb[k], skin->color[k], part->count, row->sum[k] + part->x);
+        RLF_KERNEL_WHOLE
+        for (int32_t i = 0; i < SOFT_LANES; i++) {
+            rgb[k][i] = skin->texture != NULL ? rgb[k][i] * rgb[k][i] : 1.0f;
+        }
+        encode(rgb[k], skin->color[k], stream->times[k] + part->at, stream->plus[k] + part->at,
+               stream->coverage + part->at, codes);
+        add(codes, 1.0f, part->count, row->sum[k] + part->x);
     }
 }
 
@@ -231,9 +227,9 @@ RLF_KERNEL_PART void add_segment(const soft *s, const soft_stream *stream,
     if (stream->has_skin) {
         add_skin(s, stream, part, row);
     } else {
-        take_lanes(stream->light + part->at, part->count, lanes);
         for (int k = 0; k < 3; k++) {
-            add_lanes(lanes, stream->body->color[k], row->sum[k] + part->x);
+            take_lanes(stream->codes[k] + part->at, part->count, lanes);
+            add_lanes(lanes, 1.0f, row->sum[k] + part->x);
         }
     }
     take_lanes(stream->coverage + part->at, part->count, lanes);
@@ -245,8 +241,9 @@ RLF_KERNEL_PART void add_segment(const soft *s, const soft_stream *stream,
 /* What is beyond the last lane is worked on too. */
 static void end_lanes(soft_stream *v)
 {
-    float *const all[6] = {v->coverage, v->light, v->s, v->t, v->ambient, v->direct};
-    for (int k = 0; k < 6; k++) {
+    float *const all[10] = {v->coverage, v->n[0],  v->n[1],  v->n[2],    v->s,
+                            v->t,        v->ray_x, v->ray_y, v->ambient, v->direct};
+    for (int k = 0; k < 10; k++) {
         memset(all[k] + v->count, 0, SOFT_LANES * sizeof(float));
     }
     for (int32_t i = 0; i < SOFT_LANES; i++) {
@@ -262,7 +259,10 @@ RLF_KERNEL void soft_stream_flush(const soft *s, const soft_group *group, soft_s
         return;
     }
     end_lanes(v);
-    finish_light(count, v->z, v->light, v->ambient, v->direct);
+    invert(count, v->z);
+    float light[3];
+    caster_to_floats(s->to_light, light);
+    soft_light_lanes(body->probe, light, v->material, v);
     if (!v->has_skin) {
         place_texels(count, body->texture_size, v->z, v->s, v->t, v->texel);
         look_up(count, body->texture, v->texel, v->texels);
@@ -278,9 +278,14 @@ RLF_KERNEL void soft_stream_flush(const soft *s, const soft_group *group, soft_s
         }
     }
     if (!v->has_skin) {
-        filter(count, v->texels, v->s, v->t, v->light);
+        filter(count, v->texels, v->s, v->t, v->pattern);
+        for (int32_t first = 0; first < count; first += SOFT_LANES) {
+            for (int k = 0; k < 3; k++) {
+                encode(v->pattern + first, body->color[k], v->times[k] + first, v->plus[k] + first,
+                       v->coverage + first, v->codes[k] + first);
+            }
+        }
     }
-    multiply(count, v->coverage, v->light);
     for (int32_t i = 0; i < v->segment_count; i++) {
         const stream_segment *part = &v->segments[i];
         add_segment(s, v, part, &group->rows[part->row]);

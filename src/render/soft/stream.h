@@ -18,13 +18,18 @@ typedef struct stream_segment {
 typedef struct soft_stream {
     const soft_body *body; /* of all faces */
     bool has_skin;         /* alike; else the body's own pattern */
-    int32_t count;         /* of lanes; the next SOFT_LANES may hold anything */
+    probe_material material;
+    int32_t count; /* of lanes; the next SOFT_LANES may hold anything */
     int32_t segment_count;
     float coverage[STREAM_ROOM]; /* share of the samples that see the face */
     float z[STREAM_ROOM];        /* first 1/z */
-    float light[STREAM_ROOM];    /* first light/z, s/z, t/z */
-    float s[STREAM_ROOM], t[STREAM_ROOM];
+    float n[3][STREAM_ROOM];     /* normal / z */
+    float ray_x[STREAM_ROOM], ray_y[STREAM_ROOM];
+    float s[STREAM_ROOM], t[STREAM_ROOM];            /* first s/z, t/z */
     float ambient[STREAM_ROOM], direct[STREAM_ROOM]; /* shares of light that are left */
+    /* light sent, colour times the one plus the other; without a skin its codes */
+    float times[3][STREAM_ROOM], plus[3][STREAM_ROOM], codes[3][STREAM_ROOM];
+    float pattern[STREAM_ROOM]; /* of the body's own, linear */
     int32_t texel[STREAM_ROOM];
     uint32_t texels[STREAM_ROOM];
     stream_segment segments[STREAM_LANES];
@@ -38,6 +43,10 @@ RLF_KERNEL_PART float stream_clamp(float x, float low, float high)
 
 /* stream.c: adds what is waiting to the sums of the group's rows; then nothing waits. */
 void soft_stream_flush(const soft *s, const soft_group *group, soft_stream *stream);
+
+/* gloss.c: light that the waiting pixels send, by a unit vector to the lamp. */
+void soft_light_lanes(const light_probe *probe, const float light[3], probe_material material,
+                      soft_stream *v);
 
 /* ---- body_light.c: what is left of the light on a body's faces, at nodes a few pixels apart. */
 
