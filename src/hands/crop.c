@@ -3,8 +3,9 @@
 
 #include <string.h>
 
-#define HALF_M 0.135   /* of the crop's side: from the palm's middle to a stretched finger's end */
-#define REACH_M 0.125  /* no part of a hand is farther from its palm's middle */
+#define HALF_M 0.135   /* of the crop's side: to the sides of the palm's middle */
+#define AHEAD_M 0.03   /* its own middle is so far along the arm: fingers reach farther */
+#define REACH_M 0.155  /* no part of a hand of 0.205 m is farther from its palm's middle */
 #define BEHIND_M 0.105 /* along the forearm: half a palm, and some of the forearm */
 #define STEP_M 0.015   /* in depth between neighbours; a finger before the palm is farther */
 #define PIXELS_LEAST 40
@@ -19,12 +20,12 @@ static int32_t clamped(double x, int32_t low, int32_t high)
     return i < low ? low : (i > high ? high : i);
 }
 
-static bool place(hand_crop *c, const rlf_surface *s, rlf_vec3 palm)
+static bool place(hand_crop *c, const rlf_surface *s, rlf_vec3 middle)
 {
     const rlf_camera *camera = &s->camera;
-    const double half = HALF_M * camera->fx / palm.z;
-    const double u = camera->fx * palm.x / palm.z + camera->cx;
-    const double v = camera->fy * palm.y / palm.z + camera->cy;
+    const double half = HALF_M * camera->fx / middle.z;
+    const double u = camera->fx * middle.x / middle.z + camera->cx;
+    const double v = camera->fy * middle.y / middle.z + camera->cy;
     if (!(half < 4096.0 && u > -4096.0 && v > -4096.0 && u < 20480.0 && v < 20480.0)) {
         return false;
     }
@@ -39,7 +40,7 @@ static bool place(hand_crop *c, const rlf_surface *s, rlf_vec3 palm)
     c->fy = camera->fy / c->step;
     c->cx = (camera->cx - c->x0) / c->step;
     c->cy = (camera->cy - c->y0) / c->step;
-    c->noise = (float)rlf_depth_noise_sigma(&s->noise, palm.z);
+    c->noise = (float)rlf_depth_noise_sigma(&s->noise, middle.z);
     return true;
 }
 
@@ -177,7 +178,8 @@ static void sample(hand_crop *c, rlf_vec3 palm, uint32_t turn)
 
 bool hand_crop_read(hand_crop *c, const rlf_surface *s, rlf_vec3 palm, rlf_vec3 arm, uint32_t turn)
 {
-    if (!(palm.z > 0.05) || !place(c, s, palm)) {
+    const rlf_vec3 middle = rlf_mad(palm, arm, AHEAD_M);
+    if (!(palm.z > 0.05 && middle.z > 0.05) || !place(c, s, middle)) {
         return false;
     }
     read_depth(c, s);

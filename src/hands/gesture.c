@@ -18,6 +18,7 @@
 #define TIP_REACH 0.6     /* of a finger that sticks out */
 #define TIP_SEEN_M 0.02   /* what is seen at a tip is no farther before or behind it */
 #define THUMB_OFF_M 0.035 /* a thumb beside the palm does not stick out */
+#define PALM_M 0.015       /* middle of a palm's disc from that of its bones */
 #define READ_MOST 90.0    /* energy of a fit beyond which it says nothing */
 
 static bool has_tips(const hand_patch *p, const hand_palm *palm)
@@ -77,7 +78,7 @@ static rlf_gesture gesture_of(const double reach[5], double gap)
 {
     const double others = (reach[2] + reach[3] + reach[4]) / 3.0;
     const double mean = 0.25 * reach[1] + 0.75 * others;
-    if (gap < PINCH_M && others > PINCH_REACH) {
+    if (gap < PINCH_M && (others > PINCH_REACH || reach[1] > others + POINT_MORE)) {
         return RLF_GESTURE_PINCH;
     }
     if (reach[1] > POINT_REACH && others < reach[1] - POINT_MORE) {
@@ -112,6 +113,14 @@ static void read_tips(rlf_hand *h, const hand_model *m, const hand_crop *crop,
     }
 }
 
+/* The disc's middle, which trembles less, but no farther from the fit's than palms differ. */
+static rlf_vec3 middle_of_palm(const rlf_hand *h, rlf_vec3 fit)
+{
+    const rlf_vec3 off = rlf_sub(h->palm, fit);
+    const double far = rlf_length(off);
+    return far > PALM_M ? rlf_mad(fit, off, PALM_M / far) : h->palm;
+}
+
 void hand_gesture_read(rlf_hand *h, const hand_search *search, const hand_crop *crop)
 {
     const hand_hope *best = &search->hope[0];
@@ -134,7 +143,7 @@ void hand_gesture_read(rlf_hand *h, const hand_search *search, const hand_crop *
     }
     const double towards = rlf_dot(m.z, m.palm) < 0.0 ? 1.0 : -1.0;
     h->normal = rlf_scale(m.z, towards);
-    h->palm = rlf_mad(m.palm, h->normal, m.radius_b[0]);
+    h->palm = middle_of_palm(h, rlf_mad(m.palm, h->normal, m.radius_b[0]));
     h->direction = m.y;
     h->pinch_point = rlf_scale(rlf_add(thumb, index), 0.5);
     h->pinch_width = h->gesture == RLF_GESTURE_PINCH ? 0.0 : gap;

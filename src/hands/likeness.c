@@ -5,11 +5,11 @@
 #define FORWARD_SURE 0.8 /* of a hand whose forearm is hidden by it */
 #define FORWARD 0.4f     /* of its length, that an arm towards the camera comes nearer */
 
-/* Odds by energies, e-fold: of a hand against a thing, and of a hand by itself. */
+/* Odds by energies: of a hand against a thing; a fit that is good by itself proves nothing. */
 #define LIMB_LEAST 0.1
-#define LIMB_SHARE 0.5
+#define LIMB_SHARE 0.4
 #define THING_SHARE 1.5
-#define HAND_ENERGY 40.0
+#define HAND_ENERGY 35.0
 #define HAND_WIDTH 25.0
 #define ODDS_MOST 1.5
 
@@ -74,6 +74,6 @@ double hand_likeness_of_fit(double limb, double hand, double thing)
     const double prior = rlf_clamp(limb, LIMB_LEAST, 1.0 - LIMB_LEAST);
     double odds = LIMB_SHARE * rlf_log_e(prior / (1.0 - prior));
     odds += THING_SHARE * rlf_log_e((thing + 1.0) / (hand + 1.0));
-    odds += rlf_clamp((HAND_ENERGY - hand) / HAND_WIDTH, -ODDS_MOST, ODDS_MOST);
+    odds -= rlf_clamp((hand - HAND_ENERGY) / HAND_WIDTH, 0.0, ODDS_MOST);
     return 1.0 / (1.0 + rlf_exp(-odds));
 }

@@ -8,7 +8,7 @@
 #define WAYS 3
 #define STARTS (ROLLS * CURLS * 2 * WAYS)
 #define VARIANTS (CURLS + 2)
-#define FIRST_TRIES 60 /* of a new hand, */
+#define FIRST_TRIES 120 /* of a new hand, */
 #define TRIES 24       /* and of one that fits ill or is looked at again */
 #define AGAIN_FRAMES 10
 #define FINALISTS 8
@@ -202,12 +202,23 @@ static void try_starts(hand_search *h, const hand_crop *crop, const hand_sight *
     }
 }
 
-/* Moves on as it did, and fits. */
-static void follow(hand_hope *hope, const hand_crop *crop, const hand_sight *sight, double dt,
-                   int32_t steps)
+/* Moves on as it did, or as its detector's palm: what fits better. */
+static void move_on(hand_hope *hope, const hand_crop *crop, rlf_vec3 way, double dt)
+{
+    hand_fit other = hope->fit;
+    other.pose.at = rlf_add(other.pose.at, way);
+    hope->fit.pose.at = rlf_mad(hope->fit.pose.at, hope->velocity, dt);
+    hand_fit_judge(&hope->fit, crop, COARSE);
+    hand_fit_judge(&other, crop, COARSE);
+    hope->fit = other.energy < hope->fit.energy ? other : hope->fit;
+}
+
+/* One frame's steps. */
+static void follow(hand_hope *hope, const hand_crop *crop, const hand_sight *sight, rlf_vec3 way,
+                   double dt, int32_t steps)
 {
     const hand_model_pose before = hope->fit.pose;
-    hope->fit.pose.at = rlf_mad(before.at, hope->velocity, dt);
+    move_on(hope, crop, way, dt);
     hand_fit_improve(&hope->fit, crop, &before, steps, 1);
     hand_fit_judge(&hope->fit, crop, 1);
     const double energy = hope->fit.energy + side_energy(sight, &hope->fit.pose);
@@ -232,8 +243,10 @@ static void merge(hand_search *h)
 
 bool hand_search_update(hand_search *h, const hand_crop *crop, const hand_sight *sight, double dt)
 {
+    const rlf_vec3 way = rlf_sub(sight->palm, h->palm);
+    h->palm = sight->palm;
     for (int32_t k = 0; k < h->count; k++) {
-        follow(&h->hope[k], crop, sight, dt, k == 0 ? STEPS : 3);
+        follow(&h->hope[k], crop, sight, way, dt, k == 0 ? STEPS : 3);
     }
     sort(h);
     merge(h);

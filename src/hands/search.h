@@ -18,6 +18,7 @@ typedef struct hand_search {
     int32_t count;
     int32_t next;   /* start to be tried */
     uint32_t frame; /* since it began */
+    rlf_vec3 palm;  /* of its detector, in the frame before */
     double scale;   /* of the hand, learnt */
 } hand_search;
 
