@@ -14,11 +14,15 @@
 #define FIST_REACH 0.45
 #define PINCH_REACH 0.35 /* of the others: in a fist the thumb meets the index, too */
 #define PINCH_M 0.014    /* skin to skin: as far as the fit is off */
-#define COARSE_REACH 0.6
+/* Far away, in palm radii: the ends of stretched fingers, and a fist's knuckles. */
+#define FAR_OPEN 2.0
+#define FAR_FIST 1.75
+#define FARTHEST 3        /* pixels: fewer are noise */
+#define ARM_COS (-0.5)    /* directions this close to the arm's are the arm: 60 degrees */
 #define TIP_REACH 0.6     /* of a finger that sticks out */
 #define TIP_SEEN_M 0.02   /* what is seen at a tip is no farther before or behind it */
 #define THUMB_OFF_M 0.035 /* a thumb beside the palm does not stick out */
-#define PALM_M 0.015       /* middle of a palm's disc from that of its bones */
+#define PALM_M 0.015      /* middle of a palm's disc from that of its bones */
 #define READ_MOST 90.0    /* energy of a fit beyond which it says nothing */
 
 static bool has_tips(const hand_patch *p, const hand_palm *palm)
@@ -90,12 +94,27 @@ static rlf_gesture gesture_of(const double reach[5], double gap)
     return mean < FIST_REACH && reach[1] < BENT_REACH ? RLF_GESTURE_FIST : RLF_GESTURE_NONE;
 }
 
-/* Open and closed alone, as far as a hand's blob tells. */
-static rlf_gesture coarse_gesture(const double reach[5])
+/* Open and closed alone, by how far the hand's pixels reach from its palm, but the arm's. */
+static rlf_gesture coarse_gesture(const rlf_hand *h, const hand_crop *c)
 {
-    const double mean = 0.25 * (reach[1] + reach[2] + reach[3] + reach[4]);
-    return mean > COARSE_REACH ? RLF_GESTURE_OPEN
-                               : (mean < FIST_REACH ? RLF_GESTURE_FIST : RLF_GESTURE_NONE);
+    double far[FARTHEST] = {0.0};
+    for (int32_t i = 0; i < c->count; i++) {
+        const rlf_vec3 p = {(double)c->x[i], (double)c->y[i], (double)c->p_z[i]};
+        const rlf_vec3 off = rlf_sub(p, h->palm);
+        const double flat = sqrt(off.x * off.x + off.y * off.y); /* depth trembles */
+        if (rlf_dot(off, h->arm_direction) < ARM_COS * flat) {
+            continue;
+        }
+        double next = flat;
+        for (int32_t k = 0; k < FARTHEST; k++) {
+            const double more = rlf_max(far[k], next);
+            next = rlf_min(far[k], next);
+            far[k] = more;
+        }
+    }
+    const double reach = far[FARTHEST - 1] / rlf_max(h->palm_radius, 0.01);
+    return reach > FAR_OPEN ? RLF_GESTURE_OPEN
+                            : (reach < FAR_FIST ? RLF_GESTURE_FIST : RLF_GESTURE_NONE);
 }
 
 static void read_tips(rlf_hand *h, const hand_model *m, const hand_crop *crop,
@@ -126,6 +145,10 @@ void hand_gesture_read(rlf_hand *h, const hand_search *search, const hand_crop *
     const hand_hope *best = &search->hope[0];
     hand_model m;
     double reach[5];
+    if (h->detail == RLF_HAND_PALM_ONLY) {
+        h->gesture = coarse_gesture(h, crop);
+        return;
+    }
     hand_model_build(&m, &best->fit.pose);
     for (int32_t digit = 0; digit < 5; digit++) {
         reach[digit] = hand_model_stretch(&m, digit);
@@ -137,10 +160,6 @@ void hand_gesture_read(rlf_hand *h, const hand_search *search, const hand_crop *
     const double gap =
         rlf_max(rlf_length(rlf_sub(thumb, index)) - tip_radius(&m, 0) - tip_radius(&m, 1), 0.0);
     h->gesture = gesture_of(reach, gap);
-    if (h->detail == RLF_HAND_PALM_ONLY) {
-        h->gesture = coarse_gesture(reach);
-        return;
-    }
     const double towards = rlf_dot(m.z, m.palm) < 0.0 ? 1.0 : -1.0;
     h->normal = rlf_scale(m.z, towards);
     h->palm = middle_of_palm(h, rlf_mad(m.palm, h->normal, m.radius_b[0]));

@@ -52,7 +52,7 @@ const double hand_model_high[MODEL_ANGLES] = {1.25, 1.20, 1.50, 1.00, 1.30, 0.45
                                               1.90, 0.30, 1.60, 1.90, 0.25, 1.60, 1.90,
                                               0.20, 1.60, 1.90, 1.50, 1.50};
 
-/* From the left hand's frame of scale 1 to the camera's. */
+/* From the left hand's frame to the camera's. */
 typedef struct placing {
     const hand_model_pose *pose;
     double side;
@@ -60,9 +60,7 @@ typedef struct placing {
 
 static rlf_vec3 place(const placing *p, rlf_vec3 v)
 {
-    const double s = p->pose->scale;
-    return rlf_add(p->pose->at,
-                   rlf_rotate(p->pose->q, rlf_vec3_make(p->side * s * v.x, s * v.y, s * v.z)));
+    return rlf_add(p->pose->at, rlf_rotate(p->pose->q, rlf_vec3_make(p->side * v.x, v.y, v.z)));
 }
 
 /* A mirrored turn keeps its sense about x and changes it about y and z. */
@@ -82,8 +80,8 @@ static void put_digit(hand_model *m, const placing *p, int32_t digit, const rlf_
         at[k + 1] = rlf_mad(at[k], direction[k], lengths[digit][k]);
         m->a[c] = m->joint[digit][k] = place(p, at[k]);
         m->b[c] = m->joint[digit][k + 1] = place(p, at[k + 1]);
-        m->radius_a[c] = radii[digit][k] * p->pose->scale;
-        m->radius_b[c] = radii[digit][k + 1] * p->pose->scale;
+        m->radius_a[c] = radii[digit][k];
+        m->radius_b[c] = radii[digit][k + 1];
     }
 }
 
@@ -141,8 +139,8 @@ static void put_forearm(hand_model *m, const placing *p)
         const int32_t i = MODEL_HAND + k;
         m->a[i] = place(p, rlf_scale(back, forearm_at[k]));
         m->b[i] = place(p, rlf_scale(back, forearm_at[k + 1]));
-        m->radius_a[i] = forearm_radius[k] * p->pose->scale;
-        m->radius_b[i] = forearm_radius[k + 1] * p->pose->scale;
+        m->radius_a[i] = forearm_radius[k];
+        m->radius_b[i] = forearm_radius[k + 1];
     }
     m->turn[TURN_WRIST] = turn_of(p, rlf_vec3_make(c, -s, 0), wrist, MODEL_WRIST);
     m->turn[TURN_WRIST + 1] = turn_of(p, rlf_vec3_make(0, 0, -1), wrist, MODEL_WRIST + 1);
@@ -158,8 +156,8 @@ void hand_model_build(hand_model *m, const hand_model_pose *pose)
     for (int32_t k = 0; k < MODEL_PALM; k++) {
         m->a[k] = place(&p, palm[k].a);
         m->b[k] = place(&p, palm[k].b);
-        m->radius_a[k] = palm[k].radius_a * pose->scale;
-        m->radius_b[k] = palm[k].radius_b * pose->scale;
+        m->radius_a[k] = palm[k].radius_a;
+        m->radius_b[k] = palm[k].radius_b;
     }
     put_thumb(m, &p);
     for (int32_t digit = 1; digit < 5; digit++) {

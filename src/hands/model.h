@@ -25,11 +25,10 @@ typedef struct hand_model_pose {
     rlf_vec3 at;
     rlf_quat q;
     double angle[MODEL_ANGLES]; /* as the unknowns from MODEL_THUMB on */
-    double scale;               /* of a hand of MODEL_LENGTH_M */
     bool is_left;
 } hand_model_pose;
 
-#define MODEL_LENGTH_M 0.185 /* wrist to the end of the middle finger, scale 1 */
+#define MODEL_LENGTH_M 0.185 /* wrist to the end of the middle finger: the mean of adults */
 
 /* A turn of what lies beyond a joint, camera frame. */
 typedef struct hand_turn {

@@ -9,7 +9,7 @@
 #define STARTS (ROLLS * CURLS * 2 * WAYS)
 #define VARIANTS (CURLS + 2)
 #define FIRST_TRIES 120 /* of a new hand, */
-#define TRIES 24       /* and of one that fits ill or is looked at again */
+#define TRIES 24        /* and of one that fits ill or is looked at again */
 #define AGAIN_FRAMES 10
 #define FINALISTS 8
 #define REFINED 2
@@ -19,9 +19,7 @@
 #define SETTLE 0.35  /* of a hope's energy, each frame */
 #define SAME_COS 0.9 /* of the backs of two hopes that are one */
 #define SAME_STRETCH 0.15
-#define SIDE_ENERGY 4.0  /* of a hope whose side the arm denies */
-#define SCALE_LEAST 0.86 /* 0.16 m */
-#define SCALE_MOST 1.12
+#define SIDE_ENERGY 4.0 /* of a hope whose side the arm denies */
 #define EXPECT_ENERGY 25.0
 #define EXPECT_M 0.06 /* from the fit: the detector has gone elsewhere */
 #define HALF_PALM_M 0.013
@@ -39,7 +37,6 @@ static const double curls[CURLS][9] = {{0.10, 0.15, 0.10, 0.15, 0.85, 0.30, 0.70
 void hand_search_begin(hand_search *h)
 {
     memset(h, 0, sizeof(*h));
-    h->scale = 1.0;
 }
 
 /* Bends the digits as row `curl` says. */
@@ -69,10 +66,10 @@ static void bend_wrist(hand_model_pose *pose, rlf_vec3 arm)
 }
 
 /* Start `n` of STARTS: a hand at the palm, along the arm or bent to one of its sides. */
-static hand_model_pose start_pose(const hand_search *h, const hand_sight *sight, int32_t n)
+static hand_model_pose start_pose(const hand_sight *sight, int32_t n)
 {
     const int32_t roll = n % ROLLS, curl = n / ROLLS % CURLS, way = n / (ROLLS * CURLS * 2);
-    hand_model_pose pose = {.scale = h->scale, .is_left = n / (ROLLS * CURLS) % 2 != 0};
+    hand_model_pose pose = {.is_left = n / (ROLLS * CURLS) % 2 != 0};
     const rlf_vec3 sight_way = rlf_normalize(sight->palm);
     const rlf_vec3 y = turned(sight->arm, sight_way, ways[way]);
     rlf_vec3 z = rlf_mad(sight_way, y, -rlf_dot(sight_way, y));
@@ -83,7 +80,7 @@ static hand_model_pose start_pose(const hand_search *h, const hand_sight *sight,
     pose.q = rlf_quat_from_mat3(&m);
     bend(&pose, curl);
     const rlf_vec3 palm = rlf_mad(sight->palm, sight_way, HALF_PALM_M);
-    pose.at = rlf_mad(palm, y, -0.047 * h->scale);
+    pose.at = rlf_mad(palm, y, -0.047);
     bend_wrist(&pose, sight->arm);
     return pose;
 }
@@ -178,8 +175,8 @@ static void try_starts(hand_search *h, const hand_crop *crop, const hand_sight *
     int32_t count = 0;
     for (int32_t n = h->count > 0 ? -VARIANTS : 0; n < tries; n++) {
         hand_hope hope = {.velocity = h->count > 0 ? h->hope[0].velocity : rlf_vec3_make(0, 0, 0)};
-        hope.fit.pose = n < 0 ? variant(h, sight->arm, n + VARIANTS)
-                              : start_pose(h, sight, h->next * 77 % STARTS);
+        hope.fit.pose =
+            n < 0 ? variant(h, sight->arm, n + VARIANTS) : start_pose(sight, h->next * 77 % STARTS);
         h->next = n < 0 ? h->next : (h->next + 1) % STARTS;
         hand_fit_judge(&hope.fit, crop, COARSE);
         hope.energy = hope.fit.energy + side_energy(sight, &hope.fit.pose);

@@ -19,7 +19,6 @@ typedef struct hand_search {
     int32_t next;   /* start to be tried */
     uint32_t frame; /* since it began */
     rlf_vec3 palm;  /* of its detector, in the frame before */
-    double scale;   /* of the hand, learnt */
 } hand_search;
 
 /* What its detector says of a hand. */
