@@ -8,9 +8,10 @@
 
 /* What a frame says before frames are compared. */
 typedef struct hand_seen {
-    rlf_hand hand; /* id, side, velocity and age are not known yet */
-    int32_t limb;  /* index */
-    double right;  /* > 0: by its arm it is a right hand, < 0 a left one; 0 = not known */
+    rlf_hand hand;  /* id, side, velocity and age are not known yet */
+    int32_t limb;   /* index */
+    double right;   /* > 0: by its arm it is a right hand, < 0 a left one; 0 = not known */
+    double no_foot; /* 0..1 */
 } hand_seen;
 
 /* What is known of it without a fit: palm, directions, detail. */

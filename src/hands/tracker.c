@@ -198,9 +198,10 @@ static int32_t see_limbs(rlf_hand_tracker *t, const rlf_surface *surface)
         seen->limb = k;
         seen->hand.confidence = hand_likeness_of_limb(&t->limbs.limb[k], &palm);
         if (seen->hand.confidence >= CONFIDENCE_LEAST) {
-            seen->hand.confidence *= 1.0 - hand_foot_likeness(&t->cells, palm.centre, t->down);
+            seen->no_foot = 1.0 - hand_foot_likeness(&t->cells, palm.centre, t->down);
         }
-        if (seen->hand.confidence >= CONFIDENCE_LEAST) {
+        if (seen->hand.confidence >= CONFIDENCE_LEAST &&
+            seen->hand.confidence * seen->no_foot >= CONFIDENCE_LEAST) {
             own(t, &palm, k);
             count++;
         }
@@ -254,8 +255,8 @@ static bool fit_hand(rlf_hand_tracker *t, const rlf_surface *surface, hand_seen 
     }
     const double energy = f->search.hope[0].energy;
     hand_gesture_read(&seen->hand, &f->search, t->crop);
-    seen->hand.confidence =
-        hand_likeness_of_fit(seen->hand.confidence, energy, hand_likeness_of_thing(t->crop));
+    const double thing = hand_likeness_of_thing(t->crop);
+    seen->hand.confidence = hand_likeness_of_fit(seen->hand.confidence, energy, thing);
     return true;
 }
 
@@ -281,6 +282,9 @@ static void fit_all(rlf_hand_tracker *t, const rlf_surface *surface, int32_t cou
         if (!fit_hand(t, surface, &t->seen[best])) {
             t->seen[best].hand.confidence *= UNFITTED;
         }
+    }
+    for (int32_t i = 0; i < count; i++) {
+        t->seen[i].hand.confidence *= t->seen[i].no_foot;
     }
     t->turn++;
 }
