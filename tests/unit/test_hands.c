@@ -410,6 +410,33 @@ static void test_no_hands(void **state)
     }
 }
 
+/* Six hands that leave by all borders, held together, with rods in them: nothing but finite
+ * numbers.
+ */
+static void test_many_and_leaving(void **state)
+{
+    (void)state;
+    bench b = bench_create();
+    for (int k = 0; k < 24; k++) {
+        b.time_ns += FRAME_NS;
+        scene_clear(b.scene, 2.5, b.time_ns);
+        for (int n = 0; n < 6; n++) {
+            const double turn = n * RLF_PI / 3.0, far = 0.02 * k + 0.04;
+            scene_hand h = {.palm = {far * rlf_sin(turn), -far * rlf_cos(turn), 0.5 + 0.05 * n},
+                            .turn = turn + 0.1 * k,
+                            .fingers = n * 7 % 32,
+                            .arm = 0.1 * n};
+            scene_draw_hand(b.scene, &h);
+            scene_rod(b.scene, h.palm, scene_hand_point(&h, 0.3, 0.1), 0.01, 0.02);
+        }
+        scene_noise(b.scene);
+        const rlf_hands *out = rlf_hand_tracker_update(b.tracker, &b.scene->surface);
+        check_finite(out);
+        assert_true(out->count <= RLF_HANDS_MAX);
+    }
+    bench_destroy(&b);
+}
+
 /* Two arms from below; they cross the picture, keep their ids, and nothing is allocated. */
 static void test_follows(void **state)
 {
@@ -573,6 +600,7 @@ int main(void)
         cmocka_unit_test(test_feet),
         cmocka_unit_test(test_arm_forward),
         cmocka_unit_test(test_no_hands),
+        cmocka_unit_test(test_many_and_leaving),
         cmocka_unit_test(test_follows),
         cmocka_unit_test(test_motions),
         cmocka_unit_test(test_same_bits),
