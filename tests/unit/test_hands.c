@@ -13,11 +13,12 @@ typedef struct bench {
     hand_scene *scene;
     rlf_hand_tracker *tracker;
     int64_t time_ns;
+    double wall; /* behind the hands, metres */
 } bench;
 
 static bench bench_create(void)
 {
-    bench b = {.scene = scene_create(), .time_ns = 1000};
+    bench b = {.scene = scene_create(), .time_ns = 1000, .wall = 3.5};
     const rlf_hand_tracker_def def = rlf_hand_tracker_def_default(SCENE_W, SCENE_H);
     assert_int_equal(rlf_hand_tracker_create(&def, &b.tracker), RLF_OK);
     return b;
@@ -44,11 +45,11 @@ static void check_finite(const rlf_hands *hands)
     }
 }
 
-/* One frame with these hands before a wall at 3.5 m. */
+/* One frame with these hands before the wall. */
 static const rlf_hands *show(bench *b, scene_hand *hands, int count, bool is_noisy)
 {
     b->time_ns += FRAME_NS;
-    scene_clear(b->scene, 3.5, b->time_ns);
+    scene_clear(b->scene, b->wall, b->time_ns);
     for (int i = 0; i < count; i++) {
         scene_draw_hand(b->scene, &hands[i]);
     }
@@ -303,10 +304,6 @@ static void test_arm_forward(void **state)
         out = rlf_hand_tracker_update(b.tracker, &b.scene->surface);
         check_finite(out);
     }
-    for (int i = 0; i < out->count; i++) {
-        print_message("at %.2f %.2f %.2f: %.2f\n", out->hand[i].palm.x, out->hand[i].palm.y,
-                      out->hand[i].palm.z, out->hand[i].confidence);
-    }
     assert_int_equal(count_sure(out), 1);
     const rlf_hand *seen = near_point(out, palm);
     assert_non_null(seen);
@@ -341,8 +338,6 @@ static void test_fist_with_mixed_edges(void **state)
     }
     const rlf_hand *seen = near_point(out, h.palm);
     assert_non_null(seen);
-    print_message("%s, %d tips, confidence %.2f\n", rlf_gesture_name(seen->gesture),
-                  seen->tip_count, seen->confidence);
     assert_int_equal(seen->gesture, RLF_GESTURE_FIST);
     bench_destroy(&b);
 }
@@ -352,15 +347,9 @@ static void test_pinch_before_a_wall(void **state)
 {
     (void)state;
     bench b = bench_create();
+    b.wall = 0.87;
     scene_hand h = {.palm = {0.0, 0.0, 0.8}, .turn = 0.3, .fingers = FINGERS_RING, .arm = 0.7};
-    const rlf_hands *out = NULL;
-    for (int k = 0; k < 8; k++) {
-        b.time_ns += FRAME_NS;
-        scene_clear(b.scene, 0.87, b.time_ns);
-        scene_draw_hand(b.scene, &h);
-        scene_noise(b.scene);
-        out = rlf_hand_tracker_update(b.tracker, &b.scene->surface);
-    }
+    const rlf_hands *out = show_for(&b, &h, 1, 8);
     assert_int_equal(out->count, 1);
     assert_int_equal(out->hand[0].gesture, RLF_GESTURE_PINCH);
     bench_destroy(&b);
