@@ -294,12 +294,7 @@ static double add_habits(equations *e, const hand_model_pose *pose)
                              : i >= MODEL_WRIST ? WRIST_SIGMA
                              : is_spread        ? ASIDE_SIGMA
                                                 : BEND_SIGMA;
-        if (is_spread || i < MODEL_FINGER || i >= MODEL_WRIST) {
-            energy += add_habit(e, pose->angle, i, -1, hand_model_mean[i - MODEL_THUMB], sigma);
-        } else {
-            energy +=
-                add_habit(e, pose->angle, i, -1, hand_model_mean[i - MODEL_THUMB], BEND_SIGMA);
-        }
+        energy += add_habit(e, pose->angle, i, -1, hand_model_mean[i - MODEL_THUMB], sigma);
         if (i >= MODEL_FINGER + 3 && i < MODEL_WRIST && !is_spread) {
             const double sigma_beside = i < MODEL_FINGER + 6 ? 2.0 * BESIDE_SIGMA : BESIDE_SIGMA;
             energy += add_habit(e, pose->angle, i, i - 3, 0.0, sigma_beside);

@@ -149,7 +149,6 @@ static void put_forearm(hand_model *m, const placing *p)
 void hand_model_build(hand_model *m, const hand_model_pose *pose)
 {
     const placing p = {pose, pose->is_left ? 1.0 : -1.0};
-    m->x = rlf_rotate(pose->q, rlf_vec3_make(p.side, 0, 0));
     m->y = rlf_rotate(pose->q, rlf_vec3_make(0, 1, 0));
     m->z = rlf_rotate(pose->q, rlf_vec3_make(0, 0, 1));
     m->palm = place(&p, rlf_vec3_make(0.0, 0.047, -0.002));

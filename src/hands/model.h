@@ -43,7 +43,7 @@ typedef struct hand_model {
     double radius_a[MODEL_CONES], radius_b[MODEL_CONES];
     hand_turn turn[MODEL_JOINTS];
     rlf_vec3 palm;        /* middle of the palm: turns of all are about it */
-    rlf_vec3 x, y, z;     /* the frame's axes; x towards the thumb */
+    rlf_vec3 y, z;        /* the frame's axes: to the fingers, out of the back */
     rlf_vec3 joint[5][4]; /* of a digit from its root to the middle of its round tip */
 } hand_model;
 

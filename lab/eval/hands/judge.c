@@ -127,6 +127,8 @@ rlf_result hands_judge_run(eval_table *table, int64_t seed)
     }
     add(table, "another_found", "another's hand, drawn, at 0.6 to 1.3 m: found, %",
         eval_percent(s.found, s.frames));
+    add(table, "another_false", "  marks where no hand is, % of frames",
+        eval_percent(s.false_hands, s.frames));
     add(table, "another_palm_mm", "  palm off by, mm",
         s.found > 0 ? 1e3 * s.palm / (double)s.found : NAN);
     add(table, "another_strays", "  tips that are none, %",
