@@ -11,10 +11,12 @@
 #define OWNED_BEHIND_M 0.07   /* of the palm's centre: to the wrist */
 #define OWNED_AHEAD_M 0.13    /* to the finger tips; what is held lies beyond */
 
-#define FITS_MAX 4      /* hands whose fingers are fitted: the likeliest */
-#define FIT_GATE_M 0.12 /* a palm goes on with a fit that was so near */
-#define UNFITTED 0.45   /* of the limb's likeness, where no fit says more */
-#define FIT_GAP_S 0.3   /* a fit that is older begins anew */
+#define FITS_MAX 4             /* hands whose fingers are fitted: the likeliest */
+#define FIT_GATE_M 0.12        /* a palm goes on with a fit that was so near */
+#define UNFITTED 0.45          /* of the limb's likeness, where no fit says more */
+#define FAR_FOOTPRINT_M 0.0084 /* of a pixel: two across a finger; */
+#define FAR_LIMB 0.7           /* beyond, a fit makes no limb likelier */
+#define FIT_GAP_S 0.3          /* a fit that is older begins anew */
 
 /* The fingers of one hand over frames. */
 typedef struct hand_fitted {
@@ -256,7 +258,9 @@ static bool fit_hand(rlf_hand_tracker *t, const rlf_surface *surface, hand_seen 
     const double energy = f->search.hope[0].energy;
     hand_gesture_read(&seen->hand, &f->search, t->crop);
     const double thing = hand_likeness_of_thing(t->crop);
-    seen->hand.confidence = hand_likeness_of_fit(seen->hand.confidence, energy, thing);
+    const double fitted = hand_likeness_of_fit(seen->hand.confidence, energy, thing);
+    const bool is_far = sight.palm.z > FAR_FOOTPRINT_M * surface->camera.fx;
+    seen->hand.confidence = is_far ? rlf_min(fitted, FAR_LIMB * seen->hand.confidence) : fitted;
     return true;
 }
 
