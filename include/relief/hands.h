@@ -2,15 +2,16 @@
  *
  * A hand is the end of a limb: what lies furthest along the foreground from where the limb comes
  * in, which is the picture's border or the body that it belongs to. The palm is the largest disc
- * inside that end, finger tips are what sticks out of it.
+ * inside that end. A model of a hand is fitted there; its fingers give tips and gestures, and how
+ * well it fits, against things that are no hand, gives the confidence.
  *
  *     border            wrist      palm        tips
  *       |=================|====( centre )====< point
  *       |   arm_direction -->    direction -->
  *
  * Everything is in the depth camera's frame of the surface it was found in, metres and seconds.
- * Sources: Wilson 2006 (pinch as a ring), Plagemann et al. 2010 (geodesic extrema), Casiez et al.
- * 2012 (the 1 Euro filter).
+ * Sources: Plagemann et al. 2010 (geodesic extrema), Melax et al. 2013 and Tagliasacchi et al. 2015
+ * (fits of hands), Casiez et al. 2012 (the 1 Euro filter).
  * SPDX-License-Identifier: MIT */
 #ifndef RELIEF_HANDS_H
 #define RELIEF_HANDS_H
@@ -65,7 +66,7 @@ typedef struct rlf_hand {
     double confidence;      /* 0..1 that this is a hand; see RLF_HAND_SURE */
     int64_t age_ns;         /* since it was first seen */
 
-    rlf_vec3 palm;          /* centre of the palm's disc, on the seen surface, metres; smoothed */
+    rlf_vec3 palm;          /* middle of the palm, on the seen surface, metres; smoothed */
     rlf_vec3 velocity;      /* of the palm, m/s; 0 in the first frame */
     rlf_vec3 normal;        /* of the seen side of the palm: unit, towards the camera */
     rlf_vec3 direction;     /* from the wrist to the fingers: unit, across the normal */
@@ -73,14 +74,14 @@ typedef struct rlf_hand {
     double palm_radius;     /* of the largest disc inside, metres */
 
     int32_t tip_count;               /* 0..RLF_HAND_TIPS_MAX */
-    rlf_vec3 tip[RLF_HAND_TIPS_MAX]; /* on the seen surface at the fingers' ends, metres, in the
-                                        order in which they follow round the hand */
+    rlf_vec3 tip[RLF_HAND_TIPS_MAX]; /* on the seen surface at the ends of fingers that stick out,
+                                        metres, from the thumb to the little finger; of a hand
+                                        that points the index first */
 
     rlf_gesture gesture; /* what it does, held against flicker */
     /* Between the two fingers that pinch, metres; when gesture is not PINCH: where they would. */
     rlf_vec3 pinch_point;
-    /* Gap between thumb and the finger nearest to it, metres: 0 while they touch, < 0 = not known.
-     */
+    /* Gap between thumb and index, metres: 0 while they touch, < 0 = not known. */
     double pinch_width;
     /* Of a hand that points: the ray begins at `tip[0]` and goes along this; unit. Of others it is
      * `direction`. */

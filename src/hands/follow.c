@@ -10,10 +10,10 @@
 #define VELOCITY_HZ 6.0              /* cut-off of the velocity */
 #define TURN_SHARE 0.5               /* of a new direction, each frame */
 #define FRAMES_TO_TELL 3             /* that agree on a gesture */
-#define SURER 0.3                    /* of a higher confidence, each frame, */
+#define SURER 0.5                    /* of a higher confidence, each frame, */
 #define LESS_SURE 0.1                /* and of a lower one: a hand may turn its edge */
 #define MOVED_M 0.05                 /* what has not come so far since it was first seen */
-#define UNMOVED 0.7                  /* is less sure: hands come into view by moving */
+#define UNMOVED 0.85                 /* is less sure: hands come into view by moving */
 #define SIDE_LEAST 4.0               /* frames that tell one side more than the other */
 #define SIDE_MOST 30.0
 

@@ -1,178 +1,173 @@
-/* What the fingers of one frame say. */
+/* Gestures by how far each finger reaches along the palm, and by the gap between thumb and index.
+ */
 #include "hands/gesture.h"
 
 #include <string.h>
 
 #define TIPS_FOOTPRINT_M 0.0042 /* of a pixel: four lie across a finger */
-#define FINGER_M 0.016          /* width of a finger */
-#define OPEN_REACH 2.0          /* palm radii to the end of stretched fingers */
-#define OPEN_TIPS 3
-#define CLOSED_REACH 1.75    /* a fist's knuckles end before */
-#define POINT_LONGER 1.35    /* a pointing index goes further than the thumb beside it */
-#define FORWARD_COS 0.6      /* of the forearm with the way to the camera: 53 degrees */
-#define FORWARD_SURE 0.8     /* of a hand whose forearm is hidden by it */
-#define FORWARD 0.4f         /* of its length, that an arm towards the camera comes nearer */
-#define PINCH_BEYOND_M 0.012 /* from the ring's edge to the middle of the fingers that close it */
+/* Reach of a finger along the palm, of its length: stretched it is 1, bent by 60 degrees in each
+ * joint 0.2, in a fist less than 0. */
+#define OPEN_REACH 0.8
+#define POINT_REACH 0.8
+#define POINT_MORE 0.3 /* than the others; hidden ones are taken to be half bent */
+#define BENT_REACH 0.5
+#define FIST_REACH 0.45
+#define PINCH_REACH 0.35 /* of the others: in a fist the thumb meets the index, too */
+#define PINCH_M 0.014    /* skin to skin: as far as the fit is off */
+/* Far away, in palm radii: the ends of stretched fingers, and a fist's knuckles. */
+#define FAR_OPEN 2.0
+#define FAR_FIST 1.75
+#define FARTHEST 3        /* pixels: fewer are noise */
+#define ARM_COS (-0.5)    /* directions this close to the arm's are the arm: 60 degrees */
+#define TIP_REACH 0.6     /* of a finger that sticks out */
+#define TIP_SEEN_M 0.02   /* what is seen at a tip is no farther before or behind it */
+#define THUMB_OFF_M 0.035 /* a thumb beside the palm does not stick out */
+#define PALM_M 0.015      /* middle of a palm's disc from that of its bones */
+#define READ_MOST 90.0    /* energy of a fit beyond which it says nothing */
 
 static bool has_tips(const hand_patch *p, const hand_palm *palm)
 {
     return palm->z / rlf_max(p->surface->camera.fx, 1.0) <= TIPS_FOOTPRINT_M;
 }
 
-/* Where the ring is closed: beyond its end that is furthest from the palm. */
-static rlf_vec3 ring_end(const hand_patch *p, const hand_palm *palm)
+void hand_gesture_begin(rlf_hand *h, const hand_patch *p, const hand_palm *palm)
 {
-    const double pixel = (double)p->spacing * palm->z;
-    const double dx = p->ring.x - palm->x, dy = p->ring.y - palm->y;
-    const double length = rlf_max(sqrt(dx * dx + dy * dy), 1e-6);
-    const double more = (sqrt(p->ring.area / RLF_PI) + PINCH_BEYOND_M) / pixel;
-    const double x = p->ring.x + dx / length * more, y = p->ring.y + dy / length * more;
-    const int32_t at_x = (int32_t)rlf_clamp(x + 0.5, 0.0, p->width - 1.0);
-    const int32_t at_y = (int32_t)rlf_clamp(y + 0.5, 0.0, p->height - 1.0);
-    const int32_t at = at_y * p->width + at_x;
-    const rlf_vec3 ahead = rlf_vec3_make(dx / length * more * pixel, dy / length * more * pixel, 0);
-    const rlf_vec3 middle = rlf_vec3_make(dx * pixel, dy * pixel, 0);
-    return p->disc[at] > 0 ? hand_patch_point(p, at)
-                           : rlf_add(palm->centre, rlf_add(middle, ahead));
-}
-
-/* The narrowest gap between two fingers beside each other; fingers that meet at a ring have none.
- */
-static void see_pinch(rlf_hand *h, const hand_patch *p, const hand_palm *palm)
-{
-    h->pinch_point = rlf_mad(palm->centre, h->direction, 2.0 * palm->radius);
-    h->pinch_width = -1.0;
-    for (int32_t k = 0; k + 1 < h->tip_count; k++) {
-        const double apart = rlf_length(rlf_sub(h->tip[k], h->tip[k + 1])) - FINGER_M;
-        if (h->pinch_width < 0.0 || apart < h->pinch_width) {
-            h->pinch_width = rlf_max(apart, 0.0);
-            h->pinch_point = rlf_scale(rlf_add(h->tip[k], h->tip[k + 1]), 0.5);
-        }
-    }
-    if (p->ring.is_there && h->detail == RLF_HAND_TIPS) {
-        h->pinch_width = 0.0;
-        h->pinch_point = ring_end(p, palm);
-    }
-}
-
-/* One finger, or a long one beside the thumb; its index goes first. */
-static bool is_pointing(const hand_fingers *f, int32_t *out_finger)
-{
-    int32_t longest = 0;
-    double second = 0.0;
-    for (int32_t k = 1; k < f->tip_count; k++) {
-        longest = f->tip_reach[k] > f->tip_reach[longest] ? k : longest;
-    }
-    for (int32_t k = 0; k < f->tip_count; k++) {
-        second = k != longest ? rlf_max(second, f->tip_reach[k]) : second;
-    }
-    *out_finger = longest;
-    return !f->has_wide_end && (f->tip_count == 1 || f->tip_count == 2) &&
-           f->tip_reach[longest] > POINT_LONGER * second;
-}
-
-static rlf_gesture see_by_tips(const hand_fingers *f, const hand_patch *p, int32_t *out_finger)
-{
-    if (p->ring.is_there) {
-        return RLF_GESTURE_PINCH;
-    }
-    if (f->tip_count >= OPEN_TIPS || (f->has_wide_end && f->reach > OPEN_REACH)) {
-        return RLF_GESTURE_OPEN;
-    }
-    if (is_pointing(f, out_finger)) {
-        return RLF_GESTURE_POINT;
-    }
-    return f->tip_count == 0 && f->reach < CLOSED_REACH ? RLF_GESTURE_FIST : RLF_GESTURE_NONE;
-}
-
-static rlf_gesture see_by_extent(const hand_fingers *f)
-{
-    if (f->reach > OPEN_REACH) {
-        return RLF_GESTURE_OPEN;
-    }
-    return f->reach < CLOSED_REACH ? RLF_GESTURE_FIST : RLF_GESTURE_NONE;
-}
-
-void hand_gesture_see(hand_seen *out, const hand_patch *p, const hand_palm *palm,
-                      const hand_fingers *f)
-{
-    rlf_hand *h = &out->hand;
     memset(h, 0, sizeof(*h));
     h->palm = palm->centre;
     h->normal = palm->normal;
     h->palm_radius = palm->radius;
     h->arm_direction = palm->arm;
-    const rlf_vec3 flat = rlf_mad(f->direction, palm->normal, -rlf_dot(f->direction, palm->normal));
+    const rlf_vec3 flat = rlf_mad(palm->arm, palm->normal, -rlf_dot(palm->arm, palm->normal));
     h->direction = rlf_length(flat) > 1e-3 ? rlf_normalize(flat) : rlf_perpendicular(palm->normal);
     h->detail = has_tips(p, palm) ? RLF_HAND_TIPS : RLF_HAND_PALM_ONLY;
-    if (h->detail == RLF_HAND_TIPS) {
-        h->tip_count = f->tip_count;
-        memcpy(h->tip, f->tip, sizeof(h->tip));
-    }
-    int32_t finger = 0;
-    h->gesture = h->detail == RLF_HAND_TIPS ? see_by_tips(f, p, &finger) : see_by_extent(f);
     h->point_direction = h->direction;
-    see_pinch(h, p, palm);
-    if (h->gesture == RLF_GESTURE_POINT) {
-        const rlf_vec3 index = h->tip[finger];
-        h->tip[finger] = h->tip[0];
-        h->tip[0] = index;
-        h->point_direction = rlf_normalize(rlf_sub(index, palm->centre));
+    h->pinch_point = rlf_mad(palm->centre, h->direction, 2.0 * palm->radius);
+    h->pinch_width = -1.0;
+}
+
+static double tip_radius(const hand_model *m, int32_t digit)
+{
+    return m->radius_b[MODEL_PALM + 3 * digit + 2];
+}
+
+/* Of the skin, between its end and its side towards the camera. */
+static rlf_vec3 seen_tip(const hand_model *m, int32_t digit)
+{
+    const rlf_vec3 end = m->joint[digit][3];
+    const rlf_vec3 along = rlf_normalize(rlf_sub(end, m->joint[digit][2]));
+    const rlf_vec3 side = rlf_sub(along, rlf_normalize(end));
+    const double length = rlf_length(side);
+    return length > 1e-3 ? rlf_mad(end, side, tip_radius(m, digit) / length) : end;
+}
+
+/* Whether the camera sees the hand where the tip is. */
+static bool is_seen(const hand_crop *c, rlf_vec3 tip)
+{
+    const double x = c->fx * tip.x / tip.z + c->cx, y = c->fy * tip.y / tip.z + c->cy;
+    if (!(tip.z > 0.0 && x >= 0.0 && y >= 0.0 && x < c->width - 0.5 && y < c->height - 0.5)) {
+        return false;
+    }
+    const int32_t i = (int32_t)(y + 0.5) * c->width + (int32_t)(x + 0.5);
+    const int32_t at = c->nearest[i];
+    if (at < 0) {
+        return false;
+    }
+    const double dx = at % c->width - x, dy = (double)(at / c->width) - y;
+    const double beside = sqrt(dx * dx + dy * dy) * tip.z / c->fx;
+    const double deep = (double)c->z[at] - tip.z;
+    return beside < TIP_SEEN_M && deep < TIP_SEEN_M && deep > -TIP_SEEN_M;
+}
+
+static rlf_gesture gesture_of(const double reach[5], double gap)
+{
+    const double others = (reach[2] + reach[3] + reach[4]) / 3.0;
+    const double mean = 0.25 * reach[1] + 0.75 * others;
+    if (gap < PINCH_M && (others > PINCH_REACH || reach[1] > others + POINT_MORE)) {
+        return RLF_GESTURE_PINCH;
+    }
+    if (reach[1] > POINT_REACH && others < reach[1] - POINT_MORE) {
+        return RLF_GESTURE_POINT;
+    }
+    if (mean > OPEN_REACH) {
+        return RLF_GESTURE_OPEN;
+    }
+    return mean < FIST_REACH && reach[1] < BENT_REACH ? RLF_GESTURE_FIST : RLF_GESTURE_NONE;
+}
+
+/* Open and closed alone, by how far the hand's pixels reach from its palm, but the arm's. */
+static rlf_gesture coarse_gesture(const rlf_hand *h, const hand_crop *c)
+{
+    double far[FARTHEST] = {0.0};
+    for (int32_t i = 0; i < c->count; i++) {
+        const rlf_vec3 p = {(double)c->x[i], (double)c->y[i], (double)c->p_z[i]};
+        const rlf_vec3 off = rlf_sub(p, h->palm);
+        const double flat = sqrt(off.x * off.x + off.y * off.y); /* depth trembles */
+        if (rlf_dot(off, h->arm_direction) < ARM_COS * flat) {
+            continue;
+        }
+        double next = flat;
+        for (int32_t k = 0; k < FARTHEST; k++) {
+            const double more = rlf_max(far[k], next);
+            next = rlf_min(far[k], next);
+            far[k] = more;
+        }
+    }
+    const double reach = far[FARTHEST - 1] / rlf_max(h->palm_radius, 0.01);
+    return reach > FAR_OPEN ? RLF_GESTURE_OPEN
+                            : (reach < FAR_FIST ? RLF_GESTURE_FIST : RLF_GESTURE_NONE);
+}
+
+static void read_tips(rlf_hand *h, const hand_model *m, const hand_crop *crop,
+                      const double reach[5])
+{
+    const int32_t first = h->gesture == RLF_GESTURE_POINT ? 1 : 0;
+    for (int32_t k = 0; k < 5; k++) {
+        const int32_t digit = first == 0 ? k : (k == 0 ? 1 : (k == 1 ? 0 : k));
+        const rlf_vec3 tip = seen_tip(m, digit), off = rlf_sub(m->joint[digit][3], m->palm);
+        const double aside = rlf_length(rlf_mad(off, m->y, -rlf_dot(off, m->y)));
+        const bool is_out = digit == 0 ? aside > THUMB_OFF_M : reach[digit] > TIP_REACH;
+        if (is_out && is_seen(crop, tip)) {
+            h->tip[h->tip_count++] = tip;
+        }
     }
 }
 
-/* 1 between b and c, 0 outside a and d, straight lines between. */
-static double within(double x, double a, double b, double c, double d)
+/* The disc's middle, which trembles less, but no farther from the fit's than palms differ. */
+static rlf_vec3 middle_of_palm(const rlf_hand *h, rlf_vec3 fit)
 {
-    return rlf_clamp(rlf_min((x - a) / (b - a), (d - x) / (d - c)), 0.0, 1.0);
+    const rlf_vec3 off = rlf_sub(h->palm, fit);
+    const double far = rlf_length(off);
+    return far > PALM_M ? rlf_mad(fit, off, PALM_M / far) : h->palm;
 }
 
-/* From the middle of the body an arm is 0.6 to 0.9 m long and thinner than a calf in trousers; a
- * leg is 0.9 m and longer. */
-static double leg_likeness(const hand_limb *limb, double half)
+void hand_gesture_read(rlf_hand *h, const hand_search *search, const hand_crop *crop)
 {
-    const double is_long = rlf_clamp(((double)limb->length - 0.72) / 0.13, 0.0, 1.0);
-    const double is_thick = rlf_clamp((half - 0.040) / 0.010, 0.0, 1.0);
-    const double is_longer = rlf_clamp(((double)limb->length - 0.95) / 0.10, 0.0, 1.0);
-    return rlf_max(is_long * is_thick, is_longer);
-}
-
-/* An arm towards the camera: what is behind the hand is hidden by it, and no leg rises so. */
-static bool is_forward(const hand_limb *limb)
-{
-    return limb->rise > FORWARD * limb->length;
-}
-
-static double hangs_well(const hand_limb *limb, const hand_palm *palm)
-{
-    switch (limb->root) {
-    case HAND_ROOT_BORDER: return 1.0;
-    case HAND_ROOT_BODY:
-        return is_forward(limb) ? 1.0 : 1.0 - leg_likeness(limb, palm->forearm_half);
-    case HAND_ROOT_FRONT: return is_forward(limb) ? 1.0 : 0.65;
-    case HAND_ROOT_ALONE:
-    case HAND_ROOT_NONE: break;
+    const hand_hope *best = &search->hope[0];
+    hand_model m;
+    double reach[5];
+    if (h->detail == RLF_HAND_PALM_ONLY) {
+        h->gesture = coarse_gesture(h, crop);
+        return;
     }
-    return 0.4;
-}
-
-/* A forearm, its sleeve too, is 35 to 100 mm wide, and at least a decimetre of it is seen. */
-static double forearm_likeness(const hand_palm *palm)
-{
-    const double is_even = rlf_clamp((0.30 - palm->forearm_spread) / 0.15, 0.0, 1.0);
-    const double is_long = rlf_clamp((palm->forearm - 0.03) / 0.07, 0.0, 1.0);
-    return is_even * is_long * within(palm->forearm_half, 0.012, 0.018, 0.050, 0.064);
-}
-
-double hand_confidence(const hand_limb *limb, const hand_palm *palm, const hand_fingers *f)
-{
-    /* Half a palm's breadth is 35 to 50 mm (5th to 95th percentile), edge-on 12; heads have 75. */
-    double c = within(palm->radius, 0.010, 0.026, 0.047, 0.056);
-    const bool is_foreshortened = is_forward(limb) || palm->arm.z < -FORWARD_COS;
-    c *= is_foreshortened ? FORWARD_SURE : forearm_likeness(palm);
-    c *= within((double)limb->length, 0.10, 0.18, 1.2, 1.4);
-    c *= hangs_well(limb, palm);
-    /* Nearly nothing but palm: a rod's end or a ball, no hand with a wrist. */
-    c *= palm->has_wrist || f->reach > 1.2 ? 1.0 : 0.8;
-    return c;
+    hand_model_build(&m, &best->fit.pose);
+    for (int32_t digit = 0; digit < 5; digit++) {
+        reach[digit] = hand_model_stretch(&m, digit);
+    }
+    if (best->energy > READ_MOST) {
+        return;
+    }
+    const rlf_vec3 thumb = m.joint[0][3], index = m.joint[1][3];
+    const double gap =
+        rlf_max(rlf_length(rlf_sub(thumb, index)) - tip_radius(&m, 0) - tip_radius(&m, 1), 0.0);
+    h->gesture = gesture_of(reach, gap);
+    const double towards = rlf_dot(m.z, m.palm) < 0.0 ? 1.0 : -1.0;
+    h->normal = rlf_scale(m.z, towards);
+    h->palm = middle_of_palm(h, rlf_mad(m.palm, h->normal, m.radius_b[0]));
+    h->direction = m.y;
+    h->pinch_point = rlf_scale(rlf_add(thumb, index), 0.5);
+    h->pinch_width = h->gesture == RLF_GESTURE_PINCH ? 0.0 : gap;
+    read_tips(h, &m, crop, reach);
+    h->point_direction = h->gesture == RLF_GESTURE_POINT
+                             ? rlf_normalize(rlf_sub(index, m.joint[1][0]))
+                             : h->direction;
 }

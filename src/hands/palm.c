@@ -156,36 +156,23 @@ static void fit_palm(hand_palm *palm, const hand_patch *p, int32_t seed)
 static void find_arm(hand_palm *palm, const hand_patch *p)
 {
     rlf_vec3 arm = {0, 0, 0}, end = {0, 0, 0};
-    double x = 0.0, y = 0.0, end_x = 0.0, end_y = 0.0;
     int32_t arms = 0, ends = 0;
     for (int32_t i = 0; i < p->width * p->height; i++) {
         const double behind = is_limb(p, i) ? (double)p->along[i] - palm->along : 0.0;
         if (behind > ARM_FROM_M && behind < ARM_TO_M) {
             arm = rlf_add(arm, hand_patch_point(p, i));
-            x += i % p->width;
-            y += (double)(i / p->width);
             arms++;
         } else if (is_limb(p, i) && behind < -0.5 * palm->along) {
             end = rlf_add(end, hand_patch_point(p, i));
-            end_x += i % p->width;
-            end_y += (double)(i / p->width);
             ends++;
         }
     }
     if (arms >= 8) {
         palm->arm = rlf_normalize(rlf_sub(palm->centre, rlf_scale(arm, 1.0 / arms)));
-        palm->arm_x = palm->x - x / arms;
-        palm->arm_y = palm->y - y / arms;
     } else if (ends > 0) {
         palm->arm = rlf_normalize(rlf_sub(rlf_scale(end, 1.0 / ends), palm->centre));
-        palm->arm_x = end_x / ends - palm->x;
-        palm->arm_y = end_y / ends - palm->y;
     }
-    const double length = sqrt(palm->arm_x * palm->arm_x + palm->arm_y * palm->arm_y);
-    const bool has_none = !(length > 0.1) || !(rlf_length(palm->arm) > 0.5);
-    palm->arm = has_none ? rlf_vec3_make(0, -1, 0) : palm->arm;
-    palm->arm_x = has_none ? 0.0 : palm->arm_x / length;
-    palm->arm_y = has_none ? -1.0 : palm->arm_y / length;
+    palm->arm = rlf_length(palm->arm) > 0.5 ? palm->arm : rlf_vec3_make(0, -1, 0);
 }
 
 /* The first disc from the tip that is nearly as large as the largest that a palm may be. */

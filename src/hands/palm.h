@@ -12,7 +12,6 @@ typedef struct hand_palm {
     rlf_vec3 centre;       /* metres */
     rlf_vec3 normal;       /* unit, towards the camera */
     rlf_vec3 arm;          /* unit, from the forearm to the palm */
-    double arm_x, arm_y;   /* the same in the patch, unit */
     bool has_wrist;        /* the limb is narrower behind the palm */
     double forearm;        /* how much of it is seen behind the wrist, metres */
     double forearm_half;   /* its half width, metres; 0 = not seen */

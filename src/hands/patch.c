@@ -6,14 +6,12 @@
 #define SAME_SIGMAS 6.0f /* of noise; beyond it and SAME_M a pixel is not what its cell is */
 #define SAME_M 0.03f     /* two cells' slant */
 #define BEHIND_M 0.10f   /* behind the fingers; nearer than that is the own palm */
-#define RING_LEAST_M2                                                                              \
-    0.0001                  /* a finger's cross section: what is smaller is a hole in the depth    \
-                             */
-#define RING_MOST_M2 0.0060 /* no hand makes a larger one (Wilson 2006) */
+/* A finger's cross section: what is smaller is a gap in the depth. */
+#define HOLE_LEAST_M2 0.0001
 #define MASK_OUTSIDE 0
 #define MASK_LIMB 1
 #define MASK_FILLED 2
-#define MASK_RING 3
+#define MASK_THROUGH 3
 #define MASK_UNKNOWN 4
 
 rlf_vec3 hand_patch_point(const hand_patch *p, int32_t i)
@@ -105,27 +103,20 @@ static int32_t limb_before(const hand_patch *p, int32_t i)
     return i;
 }
 
-/* A hole is a ring when something behind is seen through it; else the sensor lost a few pixels. */
+/* Through a hole one sees something behind; else the sensor lost a few pixels, which are filled. */
 static void judge_hole(hand_patch *p, int32_t count)
 {
     const int32_t before = limb_before(p, p->stack[0]);
     const float z = p->z[before];
-    hand_ring ring = {.is_there = false};
+    const double pixel = (double)(p->spacing * z);
     int32_t behind = 0;
     for (int32_t k = 0; k < count; k++) {
-        const int32_t i = p->stack[k];
-        behind += p->z[i] > z + BEHIND_M;
-        ring.x += i % p->width;
-        ring.y += (double)(i / p->width);
+        behind += p->z[p->stack[k]] > z + BEHIND_M;
     }
-    ring.x /= count;
-    ring.y /= count;
-    ring.area = count * (double)(p->spacing * z) * (double)(p->spacing * z);
-    ring.is_there = behind * 3 > count && ring.area > RING_LEAST_M2;
-    if (ring.is_there && ring.area < RING_MOST_M2 && ring.area > p->ring.area) {
-        p->ring = ring;
+    if (behind * 3 > count && count * pixel * pixel > HOLE_LEAST_M2) {
+        return;
     }
-    for (int32_t k = 0; k < count && !ring.is_there; k++) {
+    for (int32_t k = 0; k < count; k++) {
         const int32_t i = p->stack[k];
         p->mask[i] = MASK_FILLED;
         p->z[i] = z;
@@ -135,11 +126,10 @@ static void judge_hole(hand_patch *p, int32_t count)
 
 static void find_holes(hand_patch *p)
 {
-    p->ring = (hand_ring){.is_there = false};
     flood(p, 0, MASK_OUTSIDE);
     for (int32_t i = 0; i < p->width * p->height; i++) {
         if (p->mask[i] == MASK_UNKNOWN) {
-            judge_hole(p, flood(p, i, MASK_RING));
+            judge_hole(p, flood(p, i, MASK_THROUGH));
         }
     }
 }

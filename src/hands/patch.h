@@ -1,4 +1,4 @@
-/* The end of one limb pixel by pixel: its mask, how deep inside it each pixel is, and its ring. */
+/* The end of one limb pixel by pixel: its mask, and how deep inside it each pixel is. */
 #ifndef RLF_HANDS_PATCH_H
 #define RLF_HANDS_PATCH_H
 
@@ -7,25 +7,17 @@
 #define PATCH_SIDE 144 /* pixels at most, with a frame of one pixel that is outside */
 #define PATCH_COUNT (PATCH_SIDE * PATCH_SIDE)
 
-/* A hole in the mask through which one sees what is behind. */
-typedef struct hand_ring {
-    bool is_there;
-    double x, y; /* its middle, patch pixels */
-    double area; /* m^2 at the hand's depth */
-} hand_ring;
-
 /* Pixel (x, y) of the patch is (x0 + x * step, y0 + y * step) of the surface. */
 typedef struct hand_patch {
     const rlf_surface *surface;
     int32_t x0, y0, step, width, height;
-    double length;              /* of the limb from its root to the tip, metres */
-    float spacing;              /* metres between pixels at 1 m */
-    uint8_t mask[PATCH_COUNT];  /* 1 = of the limb, 2 = filled hole; 0 = outside, 3 = a ring */
-    float z[PATCH_COUNT];       /* metres; of a filled hole as of its neighbour */
-    float along[PATCH_COUNT];   /* from the tip along the limb, metres */
-    int32_t disc[PATCH_COUNT];  /* to the nearest edge, in pixels / CHAMFER */
+    double length;             /* of the limb from its root to the tip, metres */
+    float spacing;             /* metres between pixels at 1 m */
+    uint8_t mask[PATCH_COUNT]; /* 1 = of the limb, 2 = filled hole; 0 = outside, 3 = seen through */
+    float z[PATCH_COUNT];      /* metres; of a filled hole as of its neighbour */
+    float along[PATCH_COUNT];  /* from the tip along the limb, metres */
+    int32_t disc[PATCH_COUNT]; /* to the nearest edge, in pixels / CHAMFER */
     int32_t stack[PATCH_COUNT]; /* scratch */
-    hand_ring ring;             /* the largest */
 } hand_patch;
 
 /* Reads limb k of `l` from the surface that the cells were read from. False: too few pixels. */

@@ -2,6 +2,7 @@
 #include "base/checks.h"
 #include "hands/follow.h"
 #include "hands/foot.h"
+#include "hands/likeness.h"
 #include "hands/side.h"
 
 #include <string.h>
@@ -9,6 +10,21 @@
 #define CONFIDENCE_LEAST 0.05 /* below it nobody asks */
 #define OWNED_BEHIND_M 0.07   /* of the palm's centre: to the wrist */
 #define OWNED_AHEAD_M 0.13    /* to the finger tips; what is held lies beyond */
+
+#define FITS_MAX 4             /* hands whose fingers are fitted: the likeliest */
+#define FIT_GATE_M 0.12        /* a palm goes on with a fit that was so near */
+#define UNFITTED 0.45          /* of the limb's likeness, where no fit says more */
+#define FAR_FOOTPRINT_M 0.0084 /* of a pixel: two across a finger; */
+#define FAR_LIMB 0.7           /* beyond, a fit makes no limb likelier */
+#define FIT_GAP_S 0.3          /* a fit that is older begins anew */
+
+/* The fingers of one hand over frames. */
+typedef struct hand_fitted {
+    hand_search search;
+    rlf_vec3 palm;
+    int64_t last_ns; /* 0 = free */
+    bool is_taken;   /* in this frame */
+} hand_fitted;
 
 struct rlf_hand_tracker {
     rlf_hand_tracker_def def;
@@ -18,6 +34,9 @@ struct rlf_hand_tracker {
     hand_patch *patch;
     hand_follow follow;
     hand_seen seen[LIMBS_MAX];
+    hand_crop *crop;
+    hand_fitted fitted[FITS_MAX];
+    uint32_t turn; /* frames since the beginning */
     uint8_t *owner;
     rlf_hands out;
 };
@@ -68,10 +87,11 @@ static bool allocate(rlf_hand_tracker *t)
     l->from_tip = rlf_alloc_array(n, sizeof(float));
     t->owner = rlf_alloc_array(n, 1);
     t->patch = rlf_alloc(sizeof(*t->patch));
+    t->crop = rlf_alloc(sizeof(*t->crop));
     return c->z != NULL && c->noise_of != NULL && c->reach != NULL && c->root != NULL &&
            c->source != NULL && c->disc != NULL && c->queue != NULL && c->queued != NULL &&
            c->touched != NULL && l->owner != NULL && l->along != NULL && l->from_tip != NULL &&
-           t->owner != NULL && t->patch != NULL;
+           t->owner != NULL && t->patch != NULL && t->crop != NULL;
 }
 
 rlf_result rlf_hand_tracker_create(const rlf_hand_tracker_def *def, rlf_hand_tracker **out)
@@ -116,7 +136,7 @@ void rlf_hand_tracker_destroy(rlf_hand_tracker **tracker)
     void *const memory[] = {t->cells.z,       t->cells.noise_of, t->cells.reach, t->cells.root,
                             t->cells.source,  t->cells.disc,     t->cells.queue, t->cells.queued,
                             t->cells.touched, t->limbs.owner,    t->limbs.along, t->limbs.from_tip,
-                            t->owner,         t->patch};
+                            t->owner,         t->patch,          t->crop};
     for (size_t k = 0; k < sizeof(memory) / sizeof(memory[0]); k++) {
         rlf_free(memory[k]);
     }
@@ -129,6 +149,8 @@ void rlf_hand_tracker_reset(rlf_hand_tracker *t)
         return;
     }
     memset(&t->follow, 0, sizeof(t->follow));
+    memset(t->fitted, 0, sizeof(t->fitted));
+    t->turn = 0;
     t->follow.smooth_hz = t->def.smooth_hz;
     t->follow.smooth_opening = t->def.smooth_opening;
     t->out.count = 0;
@@ -163,30 +185,118 @@ static void own(rlf_hand_tracker *t, const hand_palm *palm, int32_t limb)
     }
 }
 
-static int32_t see_all(rlf_hand_tracker *t, const rlf_surface *surface)
+/* Ends of limbs that may be hands. */
+static int32_t see_limbs(rlf_hand_tracker *t, const rlf_surface *surface)
 {
     int32_t count = 0;
     for (int32_t k = 0; k < t->limbs.count; k++) {
         hand_palm palm;
-        hand_fingers fingers;
         hand_seen *seen = &t->seen[count];
         if (!hand_patch_read(t->patch, surface, &t->cells, &t->limbs, k) ||
             !hand_palm_find(&palm, t->patch)) {
             continue;
         }
-        hand_fingers_find(&fingers, t->patch, &palm);
-        hand_gesture_see(seen, t->patch, &palm, &fingers);
+        hand_gesture_begin(&seen->hand, t->patch, &palm);
         seen->limb = k;
-        seen->hand.confidence = hand_confidence(&t->limbs.limb[k], &palm, &fingers);
+        seen->hand.confidence = hand_likeness_of_limb(&t->limbs.limb[k], &palm);
         if (seen->hand.confidence >= CONFIDENCE_LEAST) {
-            seen->hand.confidence *= 1.0 - hand_foot_likeness(&t->cells, palm.centre, t->down);
+            seen->no_foot = 1.0 - hand_foot_likeness(&t->cells, palm.centre, t->down);
         }
-        if (seen->hand.confidence >= CONFIDENCE_LEAST) {
+        if (seen->hand.confidence >= CONFIDENCE_LEAST &&
+            seen->hand.confidence * seen->no_foot >= CONFIDENCE_LEAST) {
             own(t, &palm, k);
             count++;
         }
     }
     hand_sides_tell(t->seen, count, &t->cells, &t->limbs);
+    return count;
+}
+
+/* The fit that goes on at that palm, or one to begin with. */
+static hand_fitted *fit_at(rlf_hand_tracker *t, rlf_vec3 palm, double *out_dt)
+{
+    hand_fitted *best = NULL;
+    double least = FIT_GATE_M;
+    for (int32_t k = 0; k < FITS_MAX; k++) {
+        hand_fitted *f = &t->fitted[k];
+        const double dt = (double)(t->out.time_ns - f->last_ns) * 1e-9;
+        const double far = rlf_length(rlf_sub(f->palm, palm));
+        if (!f->is_taken && f->last_ns > 0 && dt > 0.0 && dt < FIT_GAP_S && far < least) {
+            best = f;
+            least = far;
+            *out_dt = dt;
+        }
+    }
+    for (int32_t k = 0; k < FITS_MAX && best == NULL; k++) {
+        hand_fitted *f = &t->fitted[k];
+        if (!f->is_taken && (best == NULL || f->last_ns < best->last_ns)) {
+            best = f;
+        }
+    }
+    return best;
+}
+
+static bool fit_hand(rlf_hand_tracker *t, const rlf_surface *surface, hand_seen *seen)
+{
+    hand_sight sight = {seen->hand.palm, seen->hand.normal, seen->hand.arm_direction, seen->right};
+    double dt = 0.0;
+    hand_fitted *f = fit_at(t, sight.palm, &dt);
+    if (dt == 0.0) {
+        hand_search_begin(&f->search);
+    } else {
+        hand_search_expect(&f->search, &sight, dt);
+    }
+    if (!hand_crop_read(t->crop, surface, sight.palm, sight.arm, t->turn)) {
+        return false;
+    }
+    f->is_taken = true;
+    f->palm = sight.palm;
+    f->last_ns = t->out.time_ns;
+    if (!hand_search_update(&f->search, t->crop, &sight, dt)) {
+        return false;
+    }
+    const double energy = f->search.hope[0].energy;
+    hand_gesture_read(&seen->hand, &f->search, t->crop);
+    const double thing = hand_likeness_of_thing(t->crop);
+    const double fitted = hand_likeness_of_fit(seen->hand.confidence, energy, thing);
+    const bool is_far = sight.palm.z > FAR_FOOTPRINT_M * surface->camera.fx;
+    seen->hand.confidence = is_far ? rlf_min(fitted, FAR_LIMB * seen->hand.confidence) : fitted;
+    return true;
+}
+
+/* The likeliest hands' fingers. */
+static void fit_all(rlf_hand_tracker *t, const rlf_surface *surface, int32_t count)
+{
+    bool is_done[LIMBS_MAX] = {false};
+    double limb[LIMBS_MAX];
+    for (int32_t k = 0; k < FITS_MAX; k++) {
+        t->fitted[k].is_taken = false;
+    }
+    for (int32_t i = 0; i < count; i++) {
+        limb[i] = t->seen[i].hand.confidence;
+        t->seen[i].hand.confidence *= UNFITTED;
+    }
+    for (int32_t n = 0; n < FITS_MAX && n < count; n++) {
+        int32_t best = -1;
+        for (int32_t i = 0; i < count; i++) {
+            best = !is_done[i] && (best < 0 || limb[i] > limb[best]) ? i : best;
+        }
+        is_done[best] = true;
+        t->seen[best].hand.confidence = limb[best];
+        if (!fit_hand(t, surface, &t->seen[best])) {
+            t->seen[best].hand.confidence *= UNFITTED;
+        }
+    }
+    for (int32_t i = 0; i < count; i++) {
+        t->seen[i].hand.confidence *= t->seen[i].no_foot;
+    }
+    t->turn++;
+}
+
+static int32_t see_all(rlf_hand_tracker *t, const rlf_surface *surface)
+{
+    const int32_t count = see_limbs(t, surface);
+    fit_all(t, surface, count);
     return count;
 }
 

@@ -101,7 +101,8 @@ static rlf_result open_all(rlf_csv_log *log, const char *folder)
     }
     if (result == RLF_OK) {
         result = open_one(&log->hands, folder, "hands.csv",
-                          "frame,time_s,hand,side,px,py,pz,vx,vy,vz,gesture,pinch_m,holding\n");
+                          "frame,time_s,hand,side,px,py,pz,vx,vy,vz,gesture,pinch_m,holding,"
+                          "confidence\n");
     }
     return result;
 }
@@ -269,6 +270,7 @@ static rlf_result write_hands(rlf_csv_log *log, const rlf_pipeline_output *outpu
         add_name(&r, rlf_gesture_name(hand->gesture));
         add_number(&r, hand->pinch_width);
         add_name(&r, held_name(output->snapshot, hand->holding));
+        add_number(&r, hand->confidence);
         result = end_row(&log->hands, &r);
     }
     return result;

@@ -119,27 +119,57 @@ static inline rlf_vec3 scene_hand_point(const scene_hand *h, double across, doub
     return rlf_add(h->palm, rlf_vec3_make(c * across + s * along, s * across - c * along, 0.0));
 }
 
+/* Thumb and index meet before the palm, which faces the camera. */
 static inline void scene_hand_ring(hand_scene *s, scene_hand *h)
 {
-    const rlf_vec3 index[3] = {scene_hand_point(h, -0.030, 0.040),
-                               scene_hand_point(h, -0.062, 0.085),
-                               scene_hand_point(h, -0.085, 0.062)};
-    const rlf_vec3 thumb[3] = {scene_hand_point(h, -0.032, -0.020),
-                               scene_hand_point(h, -0.075, 0.010),
-                               scene_hand_point(h, -0.085, 0.050)};
-    for (int k = 0; k < 2; k++) {
-        scene_rod(s, index[k], index[k + 1], 0.008, 0.008);
-        scene_rod(s, thumb[k], thumb[k + 1], 0.009, 0.008);
+    static const double index[4][3] = {{-0.028, 0.040, 0.0},
+                                       {-0.031, 0.072, 0.032},
+                                       {-0.036, 0.064, 0.057},
+                                       {-0.041, 0.050, 0.070}};
+    static const double thumb[4][3] = {{-0.022, -0.030, 0.008},
+                                       {-0.056, -0.004, 0.026},
+                                       {-0.054, 0.024, 0.048},
+                                       {-0.045, 0.038, 0.061}};
+    rlf_vec3 at[2], next[2];
+    for (int k = 0; k < 4; k++) {
+        for (int digit = 0; digit < 2; digit++) {
+            const double *p = digit == 0 ? thumb[k] : index[k];
+            next[digit] = scene_hand_point(h, p[0], p[1]);
+            next[digit].z -= p[2];
+            if (k > 0) {
+                scene_rod(s, at[digit], next[digit], 0.009, 0.008);
+            }
+            at[digit] = next[digit];
+        }
     }
-    h->pinch = rlf_scale(rlf_add(index[2], thumb[2]), 0.5);
+    h->pinch = rlf_scale(rlf_add(at[0], at[1]), 0.5);
 }
 
-/* A palm of 84 mm, fingers 16 mm thick that end 80 to 105 mm from its centre. */
+/* A finger that is bent over the palm, which faces the camera; the thumb lies over the others. */
+static inline void scene_fold(hand_scene *s, const scene_hand *h, int finger, rlf_vec3 root)
+{
+    static const double across[5][3] = {{-0.045, -0.030, -0.005},
+                                        {-0.028, -0.027, -0.026},
+                                        {-0.009, -0.008, -0.008},
+                                        {0.010, 0.010, 0.010},
+                                        {0.028, 0.027, 0.026}};
+    static const double thumb[3][2] = {{0.002, 0.015}, {0.022, 0.038}, {0.022, 0.048}};
+    static const double others[3][2] = {{0.045, 0.036}, {0.020, 0.036}, {0.012, 0.018}};
+    for (int k = 0; k < 3; k++) {
+        const double *at = finger == 0 ? thumb[k] : others[k];
+        rlf_vec3 next = scene_hand_point(h, across[finger][k], at[0]);
+        next.z -= at[1];
+        scene_rod(s, root, next, 0.0095 - 0.0005 * k, 0.009 - 0.0005 * k);
+        root = next;
+    }
+}
+
+/* A palm of 84 mm, fingers 16 mm thick that end 92 to 129 mm from its centre. */
 static inline void scene_draw_hand(hand_scene *s, scene_hand *h)
 {
     static const double base[5] = {-0.030, -0.030, -0.010, 0.010, 0.030};
     static const double end[5][2] = {
-        {-0.085, 0.030}, {-0.048, 0.092}, {-0.014, 0.105}, {0.020, 0.098}, {0.056, 0.080}};
+        {-0.096, 0.036}, {-0.046, 0.118}, {-0.013, 0.128}, {0.020, 0.120}, {0.053, 0.098}};
     for (int k = 1; k < 5; k++) {
         scene_rod(s, scene_hand_point(h, 0.7 * base[k], -0.045),
                   scene_hand_point(h, base[k], 0.038), 0.013, 0.012);
@@ -150,12 +180,14 @@ static inline void scene_draw_hand(hand_scene *s, scene_hand *h)
         h->tip[k] = to;
         if ((h->fingers & (1 << k)) != 0) {
             scene_rod(s, from, to, 0.0085, 0.008);
+        } else if ((h->fingers & FINGERS_RING) == 0 || k > 1) {
+            scene_fold(s, h, k, from);
         }
     }
     if ((h->fingers & FINGERS_RING) != 0) {
         scene_hand_ring(s, h);
     }
-    scene_rod(s, scene_hand_point(h, 0.0, -0.060), scene_hand_point(h, 0.0, -0.085), 0.027, 0.026);
+    scene_rod(s, scene_hand_point(h, 0.0, -0.055), scene_hand_point(h, 0.0, -0.085), 0.027, 0.026);
     scene_rod(s, scene_hand_point(h, 0.0, -0.085), scene_hand_point(h, 0.0, -0.085 - h->arm), 0.026,
               0.042);
 }

@@ -157,8 +157,9 @@ static void logs_have_the_fixed_columns(void **state)
          "7,0.333333333,ball,\"a,b\"\"c\",0,0,0,0,0,0,-0.001,0,0\n"
          "7,0.333333333,ball,foreground,0,0,0,0,0,0,0,0.5,2\n"
          "7,0.333333333,removed,background,0,0,0,0,-1,0,0,0,0\n"},
-        {"log/deep/hands.csv", "frame,time_s,hand,side,px,py,pz,vx,vy,vz,gesture,pinch_m,holding\n"
-                               "7,0.333333333,4,right,1,2,4,0,0,0.5,pinch,0,ball\n"},
+        {"log/deep/hands.csv", "frame,time_s,hand,side,px,py,pz,vx,vy,vz,gesture,pinch_m,holding,"
+                               "confidence\n"
+                               "7,0.333333333,4,right,1,2,4,0,0,0.5,pinch,0,ball,0.9\n"},
     };
     for (int i = 0; i < 4; i++) {
         size_t size;

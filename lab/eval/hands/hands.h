@@ -39,5 +39,7 @@ rlf_synthetic_def hands_draw(rlf_synthetic_act act, eval_random *r, uint64_t see
 rlf_result hands_grasp_run(eval_table *table, int64_t seed);
 rlf_result hands_pass_run(eval_table *table, int64_t seed);
 rlf_result hands_track_run(eval_table *table, int64_t seed);
+/* judge.c: another's hand. */
+rlf_result hands_judge_run(eval_table *table, int64_t seed);
 
 #endif

@@ -13,5 +13,9 @@ rlf_result eval_hands_run(eval_table *table, int64_t seed, int profile_mask)
 
 rlf_result eval_gestures_run(eval_table *table, int64_t seed, int profile_mask)
 {
-    return profile_mask & (1 << RLF_PROFILE_LIVE) ? hands_track_run(table, seed) : RLF_OK;
+    if (!(profile_mask & (1 << RLF_PROFILE_LIVE))) {
+        return RLF_OK;
+    }
+    const rlf_result result = hands_judge_run(table, seed);
+    return result == RLF_OK ? hands_track_run(table, seed) : result;
 }
