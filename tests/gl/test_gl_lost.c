@@ -90,7 +90,8 @@ static void close_run(run *r)
     rlf_source_destroy(&r->source);
 }
 
-/* Pictures before the loss are like those of a soft run, those after it the same. */
+/* Pictures are like those of a soft run; after the loss they differ by the camera's noise alone,
+ * which is measured anew. */
 static void check_pictures(const rlf_render_output *a, const rlf_render_output *b, bool is_lost)
 {
     assert_int_equal(a->image.width, b->image.width);
@@ -102,7 +103,8 @@ static void check_pictures(const rlf_render_output *a, const rlf_render_output *
             sum += p[i] > q[i] ? p[i] - q[i] : q[i] - p[i];
         }
     }
-    assert_true(is_lost ? sum == 0 : sum < 4 * (int64_t)a->image.width * a->image.height);
+    const int64_t pixels = (int64_t)a->image.width * a->image.height;
+    assert_true(is_lost ? 20 * sum < pixels : sum < 4 * pixels);
 }
 
 /* `lose` takes the context away between two pictures. */
