@@ -13,7 +13,6 @@
 #define RLF_RENDER_PROBE_H
 
 #include "base/inside.h"
-#include "base/inside.h"
 #include "relief/compositor.h"
 #include "relief/model.h"
 
