@@ -28,6 +28,9 @@ extern "C" {
 #define RLF_HAND_TIPS_MAX 5
 /* Most events of one frame; more are dropped. */
 #define RLF_HAND_EVENTS_MAX 32
+/* Cones of a hand's shape: the palm's six, then three of each digit from its root on, the thumb
+ * first. */
+#define RLF_HAND_CONES 21
 /* Below this confidence a thing is rather no hand: nothing is to be done by it. */
 #define RLF_HAND_SURE 0.5
 
@@ -86,6 +89,11 @@ typedef struct rlf_hand {
     /* Of a hand that points: the ray begins at `tip[0]` and goes along this; unit. Of others it is
      * `direction`. */
     rlf_vec3 point_direction;
+
+    /* Its skin, hidden sides too, as the fit of this frame has it; where there is none, zeros. */
+    bool is_shape_sure;                   /* the fit is right in nine of ten frames */
+    rlf_vec3 facing;                      /* out of the palm: unit */
+    rlf_round_cone shape[RLF_HAND_CONES]; /* metres */
 
     uint64_t holding; /* the body that it holds: its id's index1, and generation << 32; 0 = none.
                          Filled by the pipeline; the tracker leaves 0 */

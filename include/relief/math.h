@@ -332,6 +332,12 @@ typedef struct rlf_aabb {
     rlf_vec3 min, max; /* metres; empty when min > max on some axis */
 } rlf_aabb;
 
+/* What a ball sweeps from a to b while its radius changes evenly. */
+typedef struct rlf_round_cone {
+    rlf_vec3 a, b;             /* the ball's middle at both ends */
+    double radius_a, radius_b; /* metres */
+} rlf_round_cone;
+
 /* A box that holds no point: the start for rlf_aabb_extend. Its bounds are 1e30 m, which floats
  * hold. */
 static inline rlf_aabb rlf_aabb_empty(void)

@@ -47,6 +47,19 @@ typedef struct rlf_grid_region {
     int32_t point_count;   /* of points; 0 when not kept */
 } rlf_grid_region;
 
+/* Most hands of one grid. */
+#define RLF_GRID_HANDS_MAX 8
+/* Cones of a hand: the palm's six, then three of each digit from its root on, the thumb first. */
+#define RLF_GRID_HAND_CONES 21
+
+/* A real hand, its hidden sides too: what may take hold of bodies. Grid frame. */
+typedef struct rlf_grid_hand {
+    int32_t id;      /* > 0; the same as long as it is the same hand */
+    bool is_sure;    /* false: it is there, but its cones may be wrong */
+    rlf_vec3 facing; /* unit, out of the palm */
+    rlf_round_cone cones[RLF_GRID_HAND_CONES];
+} rlf_grid_hand;
+
 /* Projects a point of the grid frame to grid pixel coordinates, (0, 0) being the centre of the
  * first pixel; false when not visible. Called from worker threads: changes nothing. */
 typedef bool (*rlf_project_fn)(const void *context, rlf_vec3 p, double *out_u, double *out_v);
@@ -65,6 +78,8 @@ typedef struct rlf_grid {
     double pixel_angle;             /* approximate radians per grid pixel, for footprint sizes */
     rlf_pose T_world_grid;          /* camera pose in the world */
     int64_t time_ns;                /* when it was seen */
+    const rlf_grid_hand *hands;     /* that may grab, at time_ns; NULL = none are known */
+    int32_t hand_count;             /* 0..RLF_GRID_HANDS_MAX */
 } rlf_grid;
 
 /* ---- world

@@ -38,11 +38,17 @@ static const struct {
     const char *name;
     section_fn run;
 } sections[] = {
-    {"picture", eval_picture_run},   {"physics", eval_physics_run},
-    {"known", eval_known_run},       {"moving", eval_moving_run},
-    {"standing", eval_standing_run}, {"hands", eval_hands_run},
-    {"gestures", eval_gestures_run}, {"calibration", eval_calibration_run},
-    {"map", eval_map_run},           {"sensed", eval_sensed_run},
+    {"picture", eval_picture_run},
+    {"physics", eval_physics_run},
+    {"known", eval_known_run},
+    {"moving", eval_moving_run},
+    {"standing", eval_standing_run},
+    {"hands", eval_hands_run},
+    {"gestures", eval_gestures_run},
+    {"grasps", eval_grasps_run},
+    {"calibration", eval_calibration_run},
+    {"map", eval_map_run},
+    {"sensed", eval_sensed_run},
 };
 
 static void print_help(void)

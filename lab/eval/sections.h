@@ -21,5 +21,6 @@ rlf_result eval_standing_run(eval_table *table, int64_t seed, int profile_mask);
 /* Scripted hands of the simulator: grasps, throws, false grabs. */
 rlf_result eval_hands_run(eval_table *table, int64_t seed, int profile_mask);
 rlf_result eval_gestures_run(eval_table *table, int64_t seed, int profile_mask);
+rlf_result eval_grasps_run(eval_table *table, int64_t seed, int profile_mask);
 
 #endif

@@ -72,6 +72,9 @@ static void take_frame(hand_track *t, const rlf_hand *seen)
     h->detail = seen->detail;
     h->tip_count = seen->tip_count;
     memcpy(h->tip, seen->tip, sizeof(h->tip));
+    h->is_shape_sure = seen->is_shape_sure;
+    h->facing = seen->facing;
+    memcpy(h->shape, seen->shape, sizeof(h->shape));
     h->pinch_point = seen->pinch_point;
     h->pinch_width = seen->pinch_width;
     h->point_direction =
@@ -207,7 +210,7 @@ static void tell(const hand_follow *f, rlf_hands *out)
 
 void hand_follow_update(hand_follow *f, hand_seen *seen, int32_t count, rlf_hands *out)
 {
-    bool is_taken[LIMBS_MAX] = {false};
+    bool is_taken[SEEN_MAX] = {false};
     int32_t track, i;
     out->event_count = 0;
     for (int32_t k = 0; k < RLF_HANDS_MAX; k++) {

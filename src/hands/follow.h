@@ -4,8 +4,10 @@
 
 #include "hands/gesture.h"
 
-#define HAND_HISTORY 32 /* frames of one hand: a second */
-#define HAND_TURNS 4    /* of a hand that waves */
+#define FITS_MAX 4                      /* hands whose fingers are fitted: the likeliest */
+#define SEEN_MAX (LIMBS_MAX + FITS_MAX) /* ends of limbs, and fits that go on without */
+#define HAND_HISTORY 32                 /* frames of one hand: a second */
+#define HAND_TURNS 4                    /* of a hand that waves */
 
 /* Where a hand was. */
 typedef struct hand_moment {

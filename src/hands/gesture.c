@@ -45,6 +45,20 @@ void hand_gesture_begin(rlf_hand *h, const hand_patch *p, const hand_palm *palm)
     h->pinch_width = -1.0;
 }
 
+void hand_gesture_go_on(rlf_hand *h, const hand_model *m, rlf_vec3 palm, double radius)
+{
+    const rlf_vec3 towards = rlf_normalize(rlf_neg(palm));
+    memset(h, 0, sizeof(*h));
+    h->palm = rlf_mad(palm, towards, m->radius_b[0]);
+    h->normal = rlf_dot(m->z, palm) < 0.0 ? m->z : rlf_neg(m->z);
+    h->palm_radius = radius;
+    h->arm_direction = rlf_normalize(rlf_sub(m->a[MODEL_HAND], m->b[MODEL_CONES - 1]));
+    h->direction = h->point_direction = m->y;
+    h->detail = RLF_HAND_TIPS;
+    h->pinch_point = rlf_mad(h->palm, h->direction, 2.0 * radius);
+    h->pinch_width = -1.0;
+}
+
 static double tip_radius(const hand_model *m, int32_t digit)
 {
     return m->radius_b[MODEL_PALM + 3 * digit + 2];
@@ -160,6 +174,11 @@ void hand_gesture_read(rlf_hand *h, const hand_search *search, const hand_crop *
     const double gap =
         rlf_max(rlf_length(rlf_sub(thumb, index)) - tip_radius(&m, 0) - tip_radius(&m, 1), 0.0);
     h->gesture = gesture_of(reach, gap);
+    h->is_shape_sure = best->energy < SEARCH_SURE;
+    h->facing = rlf_neg(m.z);
+    for (int32_t k = 0; k < RLF_HAND_CONES; k++) {
+        h->shape[k] = (rlf_round_cone){m.a[k], m.b[k], m.radius_a[k], m.radius_b[k]};
+    }
     const double towards = rlf_dot(m.z, m.palm) < 0.0 ? 1.0 : -1.0;
     h->normal = rlf_scale(m.z, towards);
     h->palm = middle_of_palm(h, rlf_mad(m.palm, h->normal, m.radius_b[0]));

@@ -17,6 +17,9 @@ typedef struct hand_seen {
 /* What is known of it without a fit: palm, directions, detail. */
 void hand_gesture_begin(rlf_hand *h, const hand_patch *p, const hand_palm *palm);
 
+/* The same where only a fit of the frame before is known, whose palm has come to `palm`. */
+void hand_gesture_go_on(rlf_hand *h, const hand_model *m, rlf_vec3 palm, double radius);
+
 /* Palm, tips, gesture and pinch of a fit. */
 void hand_gesture_read(rlf_hand *h, const hand_search *search, const hand_crop *crop);
 

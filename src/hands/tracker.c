@@ -11,19 +11,23 @@
 #define OWNED_BEHIND_M 0.07   /* of the palm's centre: to the wrist */
 #define OWNED_AHEAD_M 0.13    /* to the finger tips; what is held lies beyond */
 
-#define FITS_MAX 4             /* hands whose fingers are fitted: the likeliest */
 #define FIT_GATE_M 0.12        /* a palm goes on with a fit that was so near */
 #define UNFITTED 0.45          /* of the limb's likeness, where no fit says more */
 #define FAR_FOOTPRINT_M 0.0084 /* of a pixel: two across a finger; */
 #define FAR_LIMB 0.7           /* beyond, a fit makes no limb likelier */
+#define GO_ON_S 0.12           /* a fit goes on without a limb's end after such gaps, */
+#define SAME_M 0.09            /* which is farther than this from it, */
+#define ALONE_LIMB 0.2         /* where it has been one, */
+#define ALONE_KEEP 0.98        /* less likely with each frame */
 #define FIT_GAP_S 0.3          /* a fit that is older begins anew */
 
 /* The fingers of one hand over frames. */
 typedef struct hand_fitted {
     hand_search search;
     rlf_vec3 palm;
-    int64_t last_ns; /* 0 = free */
-    bool is_taken;   /* in this frame */
+    double limb, radius; /* likeness of its limb, and of its palm, metres, when it last had one */
+    int64_t last_ns;     /* 0 = free */
+    bool is_taken;       /* in this frame */
 } hand_fitted;
 
 struct rlf_hand_tracker {
@@ -33,7 +37,7 @@ struct rlf_hand_tracker {
     hand_limbs limbs;
     hand_patch *patch;
     hand_follow follow;
-    hand_seen seen[LIMBS_MAX];
+    hand_seen seen[SEEN_MAX];
     hand_crop *crop;
     hand_fitted fitted[FITS_MAX];
     uint32_t turn; /* frames since the beginning */
@@ -185,6 +189,22 @@ static void own(rlf_hand_tracker *t, const hand_palm *palm, int32_t limb)
     }
 }
 
+/* The same for the pixels that a fit sees, where they are nobody's. */
+static void own_crop(rlf_hand_tracker *t, int32_t limb)
+{
+    const hand_crop *c = t->crop;
+    for (int32_t i = 0; i < c->pixel_count; i++) {
+        const int32_t x0 = c->x0 + c->pixel[i] % c->width * c->step;
+        const int32_t y0 = c->y0 + c->pixel[i] / c->width * c->step;
+        for (int32_t y = y0; y < y0 + c->step && y < t->def.height; y++) {
+            for (int32_t x = x0; x < x0 + c->step && x < t->def.width; x++) {
+                uint8_t *owner = &t->owner[y * t->def.width + x];
+                *owner = *owner == 0 ? (uint8_t)(limb + 1) : *owner;
+            }
+        }
+    }
+}
+
 /* Ends of limbs that may be hands. */
 static int32_t see_limbs(rlf_hand_tracker *t, const rlf_surface *surface)
 {
@@ -251,6 +271,11 @@ static bool fit_hand(rlf_hand_tracker *t, const rlf_surface *surface, hand_seen 
     }
     f->is_taken = true;
     f->palm = sight.palm;
+    f->limb = seen->hand.confidence;
+    f->radius = seen->hand.palm_radius;
+    if (seen->limb >= LIMBS_MAX) {
+        own_crop(t, seen->limb);
+    }
     f->last_ns = t->out.time_ns;
     if (!hand_search_update(&f->search, t->crop, &sight, dt)) {
         return false;
@@ -267,8 +292,8 @@ static bool fit_hand(rlf_hand_tracker *t, const rlf_surface *surface, hand_seen 
 /* The likeliest hands' fingers. */
 static void fit_all(rlf_hand_tracker *t, const rlf_surface *surface, int32_t count)
 {
-    bool is_done[LIMBS_MAX] = {false};
-    double limb[LIMBS_MAX];
+    bool is_done[SEEN_MAX] = {false};
+    double limb[SEEN_MAX];
     for (int32_t k = 0; k < FITS_MAX; k++) {
         t->fitted[k].is_taken = false;
     }
@@ -293,9 +318,48 @@ static void fit_all(rlf_hand_tracker *t, const rlf_surface *surface, int32_t cou
     t->turn++;
 }
 
+/* Whether the end of a limb is that hand, or lies on its forearm. */
+static bool is_of_limb(const hand_model *m, rlf_vec3 palm, rlf_vec3 seen)
+{
+    const rlf_vec3 arm = rlf_sub(m->b[MODEL_CONES - 1], palm);
+    const double along = rlf_dot(rlf_sub(seen, palm), arm) / rlf_dot(arm, arm);
+    const rlf_vec3 near = rlf_mad(palm, arm, rlf_clamp(along, 0.0, 1.0));
+    return rlf_length(rlf_sub(near, seen)) < SAME_M;
+}
+
+/* A hand that lies on a thing, or is closed before its arm, ends no limb: where its fit was good it
+ * goes on by its own pixels. */
+static int32_t see_fits(rlf_hand_tracker *t, int32_t count)
+{
+    const int32_t limbs = count;
+    for (int32_t k = 0; k < FITS_MAX; k++) {
+        const hand_fitted *f = &t->fitted[k];
+        const hand_hope *hope = &f->search.hope[0];
+        const double dt = (double)(t->out.time_ns - f->last_ns) * 1e-9;
+        if (f->last_ns == 0 || !(dt > 0.0 && dt < GO_ON_S) || f->search.count == 0 ||
+            hope->energy > SEARCH_SURE || f->limb < ALONE_LIMB) {
+            continue;
+        }
+        hand_model m;
+        hand_model_build(&m, &hope->fit.pose);
+        const rlf_vec3 palm = rlf_mad(m.palm, hope->velocity, dt);
+        bool has_limb = false;
+        for (int32_t i = 0; i < limbs; i++) {
+            has_limb = has_limb || is_of_limb(&m, palm, t->seen[i].hand.palm);
+        }
+        if (!has_limb) {
+            hand_seen *seen = &t->seen[count++];
+            *seen = (hand_seen){.limb = LIMBS_MAX + k, .no_foot = 1.0};
+            hand_gesture_go_on(&seen->hand, &m, palm, f->radius);
+            seen->hand.confidence = ALONE_KEEP * f->limb;
+        }
+    }
+    return count;
+}
+
 static int32_t see_all(rlf_hand_tracker *t, const rlf_surface *surface)
 {
-    const int32_t count = see_limbs(t, surface);
+    const int32_t count = see_fits(t, see_limbs(t, surface));
     fit_all(t, surface, count);
     return count;
 }
@@ -303,7 +367,7 @@ static int32_t see_all(rlf_hand_tracker *t, const rlf_surface *surface)
 /* From indices of limbs to those of hands. */
 static void rename_owners(rlf_hand_tracker *t)
 {
-    uint8_t name[LIMBS_MAX + 1] = {0};
+    uint8_t name[SEEN_MAX + 1] = {0};
     for (int32_t k = 0; k < RLF_HANDS_MAX; k++) {
         const hand_track *track = &t->follow.track[k];
         for (int32_t i = 0; i < t->out.count; i++) {

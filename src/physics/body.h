@@ -72,7 +72,10 @@ typedef struct phys_body {
     uint8_t side[2]; /* field_state: which side of foreground and background it belongs to */
 
     struct phys_grab *grab; /* the hand that holds it, or NULL; see grab/grab.h */
-    int32_t grip_frames;    /* in a row in which it was gripped and not yet held */
+    double soft_until;      /* s of the world: until then hands do not push it, they close on it */
+    int32_t grip_frames;    /* in which pixels gripped it */
+    uint32_t grasp_votes;   /* bit k: k frames ago a hand grasped it */
+    double free_until;      /* s of the world: until then it is not grabbed again */
 
     char name[RLF_NAME_MAX];
     float color[3];

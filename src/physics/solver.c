@@ -110,8 +110,8 @@ bool phys_group_of_body(rlf_world *world, int32_t body_index, double h, phys_poi
         double way = way_of(out, h) + rlf_length(c->surface_velocity) * h;
         /* The hand that holds it moves it by the joint alone: fingers that are seen a little too
            near would squeeze it out. */
-        bool is_of_hand =
-            (a->grab != NULL || a->grip_frames > 0) && c->other == RLF_CONTACT_FOREGROUND;
+        bool is_of_hand = (a->grab != NULL || world->time < a->soft_until || a->grip_frames > 0) &&
+                          c->other == RLF_CONTACT_FOREGROUND;
         take_point(c, rlf_dot(c->normal, rlf_sub(on_a, on_b)), is_of_hand ? -1e9 : way, out);
     }
     return finish_group(out);

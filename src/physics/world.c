@@ -245,6 +245,7 @@ void rlf_world_reset(rlf_world *world)
     world->frame = 0;
     world->has_grid = false;
     memset(&world->room, 0, sizeof(world->room));
+    memset(world->grab_hands, 0, RLF_GRID_HANDS_MAX * sizeof(*world->grab_hands));
     phys_world_publish(world);
 }
 

@@ -63,6 +63,7 @@ static int32_t plan_memory(rlf_world *w, memory_plan plans[PLANS_MAX])
         PLAN(first_link, bodies),
         PLAN(next_link, 2 * (bodies + pairs)),
         PLAN(grabs, (size_t)w->grab_count),
+        PLAN(grab_hands, RLF_GRID_HANDS_MAX),
         PLAN(log, contacts),
         PLAN(states, bodies),
         PLAN(touches, contacts + bodies),

@@ -137,6 +137,7 @@ struct rlf_world {
 
     phys_grab *grabs; /* as many as hands hold bodies at once */
     int32_t grab_count;
+    struct phys_grab_hand *grab_hands; /* RLF_GRID_HANDS_MAX */
 
     rlf_contact *log; /* contacts of this frame; capacity def.contact_capacity */
     int32_t log_count;

@@ -4,6 +4,8 @@
 #include "pipeline/state.h"
 #include "relief/query.h"
 
+#include <string.h>
+
 #define UP_FRAMES 10 /* the first one's noise may hide what the next ones show */
 #define THROW_M_S 3.0
 #define NEAR_M 0.25        /* a body so close to an event is meant by it */
@@ -71,6 +73,25 @@ void hand_stage_update(hand_stage *stage, const rlf_surface *surface,
         stage->now = *found;
     }
     stage->last = found != NULL ? &stage->now : NULL;
+}
+
+void hand_stage_show(hand_stage *stage, rlf_grid *grid)
+{
+    _Static_assert(RLF_HANDS_MAX <= RLF_GRID_HANDS_MAX, "all hands are shown");
+    _Static_assert(RLF_HAND_CONES == RLF_GRID_HAND_CONES, "of all their cones");
+    stage->shape_count = 0;
+    for (int32_t k = 0; stage->last != NULL && k < stage->now.count; k++) {
+        const rlf_hand *h = &stage->now.hand[k];
+        if (h->confidence < RLF_HAND_SURE || h->shape[0].radius_a <= 0.0) {
+            continue;
+        }
+        rlf_grid_hand *shape = &stage->shapes[stage->shape_count++];
+        *shape = (rlf_grid_hand){.id = h->id, .is_sure = h->is_shape_sure};
+        shape->facing = h->facing;
+        memcpy(shape->cones, h->shape, sizeof(shape->cones));
+    }
+    grid->hands = stage->shapes;
+    grid->hand_count = stage->shape_count;
 }
 
 void hand_stage_hold(hand_stage *stage, const rlf_snapshot *snapshot,

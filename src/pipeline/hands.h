@@ -15,7 +15,9 @@ typedef struct hand_stage {
     double up_confidence; /* below RLF_UP_SURE it is the world's own, -y */
     int32_t frames_asked; /* for it */
     rlf_hands now;
-    const rlf_hands *last; /* `now`; NULL = none yet, or off */
+    const rlf_hands *last;                    /* `now`; NULL = none yet, or off */
+    rlf_grid_hand shapes[RLF_GRID_HANDS_MAX]; /* of those that are hands, for physics */
+    int32_t shape_count;
     rlf_mark marks[RLF_HANDS_MAX * HAND_MARKS_EACH];
     int32_t mark_count;
     char words[RLF_HANDS_MAX][HAND_WORD_SIZE];
@@ -28,6 +30,8 @@ void hand_stage_restart(hand_stage *stage);
 /* Finds the hands of a surface, if they are wanted. */
 void hand_stage_update(hand_stage *stage, const rlf_surface *surface,
                        const rlf_pose *T_world_camera);
+/* Gives the hands of the last update to physics. */
+void hand_stage_show(hand_stage *stage, rlf_grid *grid);
 /* Tells which hand holds which of the bodies that are grabbed: the nearest one. */
 void hand_stage_hold(hand_stage *stage, const rlf_snapshot *snapshot,
                      const rlf_pose *T_world_camera);

@@ -158,6 +158,7 @@ static rlf_result advance_world(rlf_pipeline *p)
     seek_gravity(p);
     tell_blind(p);
     make_grid(p, &grid);
+    hand_stage_show(&p->hands, &grid);
     bool is_first = p->frame_index == 0;
     rlf_result result = place_known(p, &grid);
     if (result != RLF_OK) {

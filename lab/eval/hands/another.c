@@ -10,13 +10,17 @@
 #define FOCAL 365.0
 #define USUAL_M 0.190
 #define WALL_M 2.6
-#define FLATTER 0.82 /* a finger's depth of its breadth */
-#define PAD_M 0.0022 /* by which a pad stands out */
+#define THICK_M 0.018f /* what is known of a foreground's, where nothing else says */
+#define FLATTER 0.82   /* a finger's depth of its breadth */
+#define PAD_M 0.0022   /* by which a pad stands out */
 
 struct another_view {
     rlf_surface surface;
     float depth[N], clean[N], ray_x[N], ray_y[N], nx[N], ny[N], nz[N];
+    float back[N], back_normal[3][N], thickness[N], velocity[3][N];
     uint8_t foreground[N];
+    rlf_vec3 up; /* camera frame */
+    rlf_rig rig;
 };
 
 static const rlf_vec3 roots[5] = {{0.024, 0.022, -0.014},
@@ -56,7 +60,60 @@ another_view *another_view_create(void)
     s->normal_x = v->nx;
     s->normal_y = v->ny;
     s->normal_z = v->nz;
+    s->background_depth = v->back;
+    s->background_normal_x = v->back_normal[0];
+    s->background_normal_y = v->back_normal[1];
+    s->background_normal_z = v->back_normal[2];
+    s->background_state = RLF_BACKGROUND_READY;
+    s->background_version = 1;
+    s->thickness = v->thickness;
+    s->velocity_x = v->velocity[0];
+    s->velocity_y = v->velocity[1];
+    s->velocity_z = v->velocity[2];
+    const another_plane wall = {{0, 0, -1}, -WALL_M, {0, 0, WALL_M}, 10.0};
+    another_view_room(v, &wall, 1, rlf_vec3_make(0, -1, 0));
     return v;
+}
+
+void another_view_room(another_view *v, const another_plane *planes, int32_t count, rlf_vec3 up)
+{
+    v->up = up;
+    for (int i = 0; i < N; i++) {
+        const rlf_vec3 ray = {(double)v->ray_x[i], (double)v->ray_y[i], 1.0};
+        v->back[i] = 0.0f;
+        v->thickness[i] = THICK_M;
+        for (int32_t k = 0; k < count; k++) {
+            const another_plane *p = &planes[k];
+            const double z = eval_plane_depth(p->normal, p->offset, ray);
+            const bool is_on = rlf_length(rlf_sub(rlf_scale(ray, z), p->middle)) < p->radius;
+            if (z > 0.0 && is_on && (v->back[i] == 0.0f || (float)z < v->back[i])) {
+                v->back[i] = (float)z;
+                v->back_normal[0][i] = (float)p->normal.x;
+                v->back_normal[1][i] = (float)p->normal.y;
+                v->back_normal[2][i] = (float)p->normal.z;
+            }
+        }
+    }
+}
+
+void another_view_flow(another_view *v, rlf_vec3 velocity)
+{
+    for (int i = 0; i < N; i++) {
+        const bool is_there = v->foreground[i] != 0;
+        v->velocity[0][i] = is_there ? (float)velocity.x : 0.0f;
+        v->velocity[1][i] = is_there ? (float)velocity.y : 0.0f;
+        v->velocity[2][i] = is_there ? (float)velocity.z : 0.0f;
+    }
+}
+
+const rlf_rig *another_view_rig(another_view *v)
+{
+    v->rig = rlf_rig_default();
+    v->rig.depth = v->surface.camera;
+    v->rig.depth_min_m = 0.3;
+    v->rig.depth_max_m = 4.5;
+    v->rig.noise = v->surface.noise;
+    return &v->rig;
 }
 
 void another_view_destroy(another_view *view)
@@ -168,6 +225,35 @@ static void put_digit(another_view *v, another_hand *h, int digit)
     }
 }
 
+rlf_vec3 another_hand_tip(const another_hand *h, const another_grip *grip, int32_t digit)
+{
+    const double s = h->length / USUAL_M, side = h->is_left ? s : -s;
+    bone bones[3];
+    place_digit(h, grip, digit, bones);
+    return rlf_vec3_make(side * bones[2].to.x, s * bones[2].to.y, s * bones[2].to.z);
+}
+
+double another_hand_distance(const another_hand *h, const another_grip *grip, int32_t digit,
+                             const rlf_shape *shape, const rlf_pose *T_hand_body)
+{
+    const double s = h->length / USUAL_M, side = h->is_left ? s : -s;
+    double least = 1e9;
+    bone bones[3];
+    place_digit(h, grip, digit, bones);
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i <= 8; i++) {
+            rlf_vec3 gradient,
+                p = rlf_mad(bones[k].from, rlf_sub(bones[k].to, bones[k].from), i / 8.0);
+            p = rlf_vec3_make(side * p.x, s * p.y, s * p.z);
+            p = rlf_transform_inverse(T_hand_body, p);
+            const double far =
+                rlf_shape_distance(shape, p, &gradient) - s * FLATTER * bones[k].half;
+            least = rlf_min(least, far);
+        }
+    }
+    return least;
+}
+
 static double gap_of(const another_hand *h, const another_grip *grip)
 {
     bone thumb[3], index[3];
@@ -210,15 +296,41 @@ static void put_part(another_view *v, const another_hand *h, const double p[8])
         p[7]);
 }
 
+static const double palm[7][8] = {{0.012, 0.020, -0.001, 0.025, 0.088, -0.003, 0.0135, 0.95},
+                                  {0.004, 0.020, 0.000, 0.005, 0.090, -0.002, 0.0140, 1.0},
+                                  {-0.006, 0.020, -0.001, -0.014, 0.085, -0.003, 0.0135, 1.0},
+                                  {-0.014, 0.020, -0.003, -0.031, 0.076, -0.006, 0.0125, 1.0},
+                                  {-0.021, 0.022, -0.012, -0.028, 0.055, -0.012, 0.0130, 0.9},
+                                  {0.014, 0.018, -0.012, 0.026, 0.044, -0.016, 0.0150, 0.9},
+                                  {0.0, 0.004, 0.0, 0.0, 0.020, 0.0, 0.0290, 0.68}};
+
+void another_hand_cones(const another_hand *h, another_cone out[ANOTHER_CONES])
+{
+    const double s = h->length / USUAL_M, side = h->is_left ? s : -s;
+    for (int k = 0; k < 6; k++) {
+        const double *p = palm[k];
+        out[k].a = rlf_vec3_make(side * p[0], s * p[1], s * p[2]);
+        out[k].b = rlf_vec3_make(side * p[3], s * p[4], s * p[5]);
+        out[k].radius = p[6] * s * h->breadth;
+    }
+    for (int digit = 0; digit < 5; digit++) {
+        bone bones[3];
+        place_digit(h, &h->grip, digit, bones);
+        for (int k = 0; k < 3; k++) {
+            another_cone *c = &out[6 + 3 * digit + k];
+            c->a = rlf_vec3_make(side * bones[k].from.x, s * bones[k].from.y, s * bones[k].from.z);
+            c->b = rlf_vec3_make(side * bones[k].to.x, s * bones[k].to.y, s * bones[k].to.z);
+            c->radius = FLATTER * s * bones[k].half;
+        }
+    }
+    for (int k = 0; k < ANOTHER_CONES; k++) {
+        out[k].a = rlf_transform(&h->T_camera_hand, out[k].a);
+        out[k].b = rlf_transform(&h->T_camera_hand, out[k].b);
+    }
+}
+
 static void put_all(another_view *v, another_hand *h)
 {
-    static const double palm[7][8] = {{0.012, 0.020, -0.001, 0.025, 0.088, -0.003, 0.0135, 0.95},
-                                      {0.004, 0.020, 0.000, 0.005, 0.090, -0.002, 0.0140, 1.0},
-                                      {-0.006, 0.020, -0.001, -0.014, 0.085, -0.003, 0.0135, 1.0},
-                                      {-0.014, 0.020, -0.003, -0.031, 0.076, -0.006, 0.0125, 1.0},
-                                      {-0.021, 0.022, -0.012, -0.028, 0.055, -0.012, 0.0130, 0.9},
-                                      {0.014, 0.018, -0.012, 0.026, 0.044, -0.016, 0.0150, 0.9},
-                                      {0.0, 0.004, 0.0, 0.0, 0.020, 0.0, 0.0290, 0.68}};
     for (int k = 0; k < 7; k++) {
         put_part(v, h, palm[k]);
     }
@@ -254,7 +366,8 @@ static void sense(another_view *v, eval_random *r)
         }
         z += (float)(1.73 * noise * rlf_depth_noise_sigma(&v->surface.noise, (double)z));
         z += is_edge && chance < 0.4 ? 0.03f : 0.0f;
-        v->depth[i] = (is_edge && chance > 0.75) || chance > 0.995 ? 0.0f : z;
+        const bool is_gap = (is_edge && chance > 0.75) || chance > 0.995 || v->clean[i] <= 0.0f;
+        v->depth[i] = is_gap ? 0.0f : z;
         v->foreground[i] = v->foreground[i] != 0 && v->depth[i] > 0.0f;
     }
     for (int i = ANOTHER_WIDTH + 1; i < N - ANOTHER_WIDTH - 1; i++) {
@@ -269,19 +382,25 @@ static void sense(another_view *v, eval_random *r)
     }
 }
 
-const rlf_surface *another_view_show(another_view *v, another_hand *hand, eval_random *r,
-                                     int64_t time_ns)
+/* Chest and head of whoever has these hands. */
+static void put_person(another_view *v, rlf_vec3 chest)
 {
-    for (int i = 0; i < N; i++) {
-        v->clean[i] = (float)WALL_M;
-        v->foreground[i] = 0;
+    const rlf_vec3 x = {1, 0, 0};
+    put(v, chest, rlf_mad(chest, v->up, -0.6), x, 0.17, 0.6);
+    put(v, rlf_mad(chest, v->up, 0.48), rlf_mad(chest, v->up, 0.37), x, 0.08, 1.0);
+}
+
+const rlf_surface *another_view_show(another_view *v, another_hand *hands, int32_t count,
+                                     eval_random *r, int64_t time_ns)
+{
+    memcpy(v->clean, v->back, sizeof(v->clean));
+    memset(v->foreground, 0, sizeof(v->foreground));
+    if (count > 0) {
+        put_person(v, hands[0].chest);
     }
-    const rlf_vec3 x = {1, 0, 0},
-                   chest = rlf_vec3_make(hand->shoulder.x * 0.3, 0.15, hand->shoulder.z);
-    put(v, chest, rlf_vec3_make(chest.x, 0.75, chest.z), x, 0.17, 0.6);
-    put(v, rlf_vec3_make(chest.x, -0.33, chest.z), rlf_vec3_make(chest.x, -0.22, chest.z), x, 0.08,
-        1.0);
-    put_all(v, hand);
+    for (int32_t k = 0; k < count; k++) {
+        put_all(v, &hands[k]);
+    }
     sense(v, r);
     v->surface.time_ns = time_ns;
     v->surface.sequence++;

@@ -4,6 +4,7 @@
 
 #include "eval/analytic.h"
 #include "relief/hands.h"
+#include "relief/snapshot.h"
 
 #define ANOTHER_WIDTH 512
 #define ANOTHER_HEIGHT 424
@@ -22,10 +23,18 @@ typedef struct another_hand {
     bool is_left, has_sleeve;
     double finger[5], breadth; /* shares of the usual */
     rlf_pose T_camera_hand;
-    rlf_vec3 elbow, shoulder; /* camera frame */
+    rlf_vec3 elbow, shoulder, chest; /* camera frame */
     another_grip grip;
     rlf_vec3 tip[5], palm; /* out: middle of the tips' ends, and of the palm */
 } another_hand;
+
+#define ANOTHER_CONES 21
+
+/* From a to b, round. */
+typedef struct another_cone {
+    rlf_vec3 a, b;
+    double radius;
+} another_cone;
 
 /* A picture of it before a chest and a wall, as a surface. */
 typedef struct another_view another_view;
@@ -38,8 +47,31 @@ void another_hand_draw_lots(another_hand *hand, eval_random *r);
 another_grip another_grip_draw_lots(const another_hand *hand, rlf_gesture gesture, eval_random *r);
 another_grip another_grip_mix(const another_grip *a, const another_grip *b, double share);
 
-/* Draws the next frame, with a sensor's noise, mixed edges and gaps. */
-const rlf_surface *another_view_show(another_view *view, another_hand *hand, eval_random *r,
-                                     int64_t time_ns);
+/* A face of the room: n.p = offset, as far as `radius` about `middle`; camera frame. */
+typedef struct another_plane {
+    rlf_vec3 normal;
+    double offset;
+    rlf_vec3 middle;
+    double radius;
+} another_plane;
+
+/* Another room than a wall at 2.6 m. */
+void another_view_room(another_view *view, const another_plane *planes, int32_t count, rlf_vec3 up);
+/* Velocity of all that moves in the surface of the last frame, m/s; still until then. */
+void another_view_flow(another_view *view, rlf_vec3 velocity);
+/* The sensor; its pictures are the surface's depth. */
+const rlf_rig *another_view_rig(another_view *view);
+
+/* Draws the next frame, with a sensor's noise, mixed edges and gaps. Fills tips and palms. */
+const rlf_surface *another_view_show(another_view *view, another_hand *hands, int32_t count,
+                                     eval_random *r, int64_t time_ns);
+
+/* Skin of the hand's solids as round cones, camera frame: the palm's six, and three a digit. */
+void another_hand_cones(const another_hand *hand, another_cone out[ANOTHER_CONES]);
+/* Least distance of digit's skin to a shape at that pose in the hand's frame, metres. */
+double another_hand_distance(const another_hand *hand, const another_grip *grip, int32_t digit,
+                             const rlf_shape *shape, const rlf_pose *T_hand_body);
+/* The end of a digit in the hand's frame, metres. */
+rlf_vec3 another_hand_tip(const another_hand *hand, const another_grip *grip, int32_t digit);
 
 #endif

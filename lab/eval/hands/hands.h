@@ -41,5 +41,7 @@ rlf_result hands_pass_run(eval_table *table, int64_t seed);
 rlf_result hands_track_run(eval_table *table, int64_t seed);
 /* judge.c: another's hand. */
 rlf_result hands_judge_run(eval_table *table, int64_t seed);
+/* others.c: its grasps. */
+rlf_result hands_others_run(eval_table *table, int64_t seed);
 
 #endif

@@ -33,6 +33,7 @@ static void raise_hand(another_hand *h, eval_random *r)
     h->T_camera_hand =
         (rlf_pose){at, rlf_quat_mul(rlf_quat_from_axis_angle(rlf_vec3_make(0, 0, 1), roll), q)};
     h->shoulder = rlf_vec3_make(side * 0.22, -0.12, far + eval_random_range(r, 0.35, 0.5));
+    h->chest = rlf_vec3_make(h->shoulder.x * 0.3, 0.15, h->shoulder.z);
     const rlf_vec3 y = rlf_rotate(h->T_camera_hand.q, rlf_vec3_make(0, 1, 0));
     const rlf_vec3 low = {side * 0.15, 0.9, 0.55};
     const rlf_vec3 fore = rlf_normalize(rlf_add(rlf_scale(y, -0.8), rlf_normalize(low)));
@@ -95,7 +96,7 @@ static rlf_result judge(judge_sums *s, eval_random *r)
             h.grip = another_grip_mix(&from, &to, share);
             h.T_camera_hand.p = rlf_mad(start, way, share);
             const rlf_surface *surface =
-                another_view_show(view, &h, r, 1000 + (int64_t)(1e9 * FRAME_S) * frame++);
+                another_view_show(view, &h, 1, r, 1000 + (int64_t)(1e9 * FRAME_S) * frame++);
             add_frame(s, rlf_hand_tracker_update(tracker, surface), &h, k - frames);
         }
         from = to;

@@ -19,3 +19,8 @@ rlf_result eval_gestures_run(eval_table *table, int64_t seed, int profile_mask)
     const rlf_result result = hands_judge_run(table, seed);
     return result == RLF_OK ? hands_track_run(table, seed) : result;
 }
+
+rlf_result eval_grasps_run(eval_table *table, int64_t seed, int profile_mask)
+{
+    return profile_mask & (1 << RLF_PROFILE_LIVE) ? hands_others_run(table, seed) : RLF_OK;
+}

@@ -1,14 +1,22 @@
-/* The life of a grab: begun by a grip, carried by the hand's motion, ended by open fingers. */
+/* The life of a grab: begun by a hand that closes, carried by the hand's motion, ended by one that
+ * opens. */
 #include "physics/grab/grab.h"
 
-/* Frames in a row in which the sides grip before the body is held: one may be noise. */
-#define GRIP_FRAMES 2
-/* Frames in a row in which a side is seen to be gone before the body is let go. */
-#define OPEN_FRAMES 4
+/* Frames of the last four in which it is grasped before the body is held: one may be noise. */
+#define GRASP_FRAMES 3
+#define GRASP_MASK 0xfu
 /* The hand may be lost for so many frames: noise, or something passes before it. */
 #define LOST_FRAMES 3
 /* Of the joint, rad/s: errors fade within two frames, without a swing. */
 #define JOINT_OMEGA 50.0
+/* A hand does not push a body for so long after it closed on it, s. */
+#define SOFT_S 0.2
+/* A body that was let go is not taken again for so long, s. */
+#define COOL_S 0.3
+#define HAND_POINTS_MIN 12
+/* Of pixels: frames in a row in which they grip, and in which a side is seen to be gone. */
+#define GRIP_FRAMES 2
+#define OPEN_FRAMES 4
 /* Sides that move apart, or past each other, faster are no grip, m/s. */
 #define APART_SPEED 0.15
 #define PAST_SPEED 0.3
@@ -19,7 +27,6 @@
 /* Of what is seen, so much is believed in one frame: a share. */
 #define SETTLE 0.05
 #define KEEP_PIXELS 2.0
-#define HAND_POINTS_MIN 12
 
 /* Whether the two sides move as one hand that does not open, and the body with it. */
 static bool moves_as_one(const grab_grip *grip, rlf_vec3 body_v)
@@ -42,76 +49,112 @@ static phys_grab *free_grab(rlf_world *world)
     return NULL;
 }
 
-static void begin(rlf_world *world, const grid_query *query, phys_body *body, const grab_grip *grip,
-                  double weight)
+/* The hand's frame begins where the body is; the grid shows the hand -tau later. */
+static phys_grab *begin(rlf_world *world, const grid_query *query, phys_body *body, rlf_vec3 v)
 {
     phys_grab *grab = free_grab(world);
-    if (grab == NULL) {
-        return;
+    if (grab == NULL || phys_body_is_fixed(body)) {
+        return NULL;
     }
-    rlf_vec3 flow = rlf_add(grip->sides[0].velocity, grip->sides[1].velocity);
-    *grab = (phys_grab){.is_used = true, .body = (int32_t)(body - world->bodies)};
-    grab->v = rlf_rotate(body->q, rlf_scale(flow, 0.5));
-    grab->T_world_hand = phys_body_pose(body); /* now; the grid shows the hand -tau later */
+    *grab = (phys_grab){.is_used = true, .body = (int32_t)(body - world->bodies), .v = v};
+    grab->T_world_hand = phys_body_pose(body);
     grab->T_world_hand.p = rlf_mad(grab->T_world_hand.p, grab->v, -query->tau);
-    grab->axis = grip->axis;
-    grab->ends[0] = grip->sides[0].point;
-    grab->ends[1] = grip->sides[1].point;
-    grab->weight = weight;
     grab_learn_hand(query, body, grab);
     grab->is_used = grab->point_count >= HAND_POINTS_MIN;
-    if (grab->is_used) {
-        body->grab = grab;
-        phys_body_wake(body);
+    if (!grab->is_used) {
+        return NULL;
+    }
+    body->grab = grab;
+    phys_body_wake(body);
+    return grab;
+}
+
+/* Where no hand is sure. */
+static void seek_front(rlf_world *world, const grid_query *query, phys_body *body)
+{
+    grab_front front;
+    grab_grip grip = {.axis = {0, 0, 0}};
+    rlf_pose pose = phys_body_pose(body);
+    grab_look(query, body, &pose, query->tau, grab_tolerance(query, body->x), &front);
+    rlf_vec3 v = rlf_rotate(rlf_quat_conjugate(body->q), body->v);
+    const bool is_gripped = grab_find_grip(&front, &grip) && moves_as_one(&grip, v);
+    body->grip_frames = is_gripped ? body->grip_frames + 1 : body->grip_frames / 2;
+    if (!is_gripped || body->grip_frames < GRIP_FRAMES) {
+        return;
+    }
+    body->grip_frames = 0;
+    const rlf_vec3 flow = rlf_add(grip.sides[0].velocity, grip.sides[1].velocity);
+    phys_grab *grab = begin(world, query, body, rlf_rotate(body->q, rlf_scale(flow, 0.5)));
+    if (grab != NULL) {
+        grab->kind = GRAB_PIXELS;
+        grab->axis = grip.axis;
+        grab->ends[0] = grip.sides[0].point;
+        grab->ends[1] = grip.sides[1].point;
+        grab->weight = front.weight + front.deep;
+    }
+}
+
+static void take(rlf_world *world, const grid_query *query, phys_body *body,
+                 const grab_reason *reason)
+{
+    const rlf_grid_hand *a = &query->grid->hands[reason->hands[0]];
+    const rlf_grid_hand *b = reason->hands[1] >= 0 ? &query->grid->hands[reason->hands[1]] : a;
+    const rlf_vec3 v =
+        rlf_add(grab_hand_of(world, a->id)->velocity, grab_hand_of(world, b->id)->velocity);
+    phys_grab *grab = begin(world, query, body, rlf_scale(v, 0.5));
+    body->grasp_votes = 0;
+    if (grab != NULL) {
+        grab->kind = reason->kind;
+        grab->hands[0] = a->id;
+        grab->hands[1] = b != a ? b->id : 0;
+        grab_begin_hold(world, grab);
     }
 }
 
 static void seek(rlf_world *world, const grid_query *query, phys_body *body)
 {
     grab_touches touches;
-    grab_grip grip = {.axis = {0, 0, 0}};
-    double tolerance = grab_tolerance(query, body->x);
-    bool is_gripped = false;
-    if (grid_collide_prepare(query, body)) {
-        rlf_pose pose = phys_body_pose(body);
-        grab_look(query, body, &pose, query->tau, tolerance, &touches);
-        rlf_vec3 v = rlf_rotate(rlf_quat_conjugate(body->q), body->v);
-        is_gripped = grab_find_grip(&touches, &grip) && moves_as_one(&grip, v);
+    grab_reason reason = {.kind = GRAB_NONE};
+    const rlf_pose pose = phys_body_pose(body);
+    if (world->time < body->free_until || !grid_collide_prepare(query, body)) {
+        body->grip_frames /= 2;
+        body->grasp_votes = 0;
+        return;
     }
-    body->grip_frames = is_gripped ? body->grip_frames + 1 : body->grip_frames / 2;
-    if (is_gripped && body->grip_frames >= GRIP_FRAMES && !phys_body_is_fixed(body)) {
-        body->grip_frames = 0;
-        begin(world, query, body, &grip, touches.weight + touches.deep);
+    grab_touch_hands(world, query, body, &pose, query->tau, &touches);
+    if (!touches.is_judged) {
+        body->grasp_votes = body->grasp_votes << 1 & GRASP_MASK;
+        seek_front(world, query, body);
+        return;
+    }
+    reason = grab_decide(world, query, body, &touches);
+    body->grip_frames = 0;
+    body->soft_until = reason.is_closing ? world->time + SOFT_S : body->soft_until;
+    body->grasp_votes = (body->grasp_votes << 1 | (reason.kind != GRAB_NONE)) & GRASP_MASK;
+    uint32_t v = body->grasp_votes;
+    const uint32_t votes = (v & 1u) + (v >> 1 & 1u) + (v >> 2 & 1u) + (v >> 3);
+    if (reason.kind != GRAB_NONE && votes >= GRASP_FRAMES) {
+        take(world, query, body, &reason);
     }
 }
 
 /* Whether the hand is seen to be open: much less of it touches than when it closed, or nothing on
  * one side, and the camera sees beyond where that was. */
-static bool is_open(const grid_query *query, phys_grab *grab, const grab_touches *touches)
+static bool is_front_open(const grid_query *query, phys_grab *grab, const grab_front *front)
 {
-    double weight = touches->weight + touches->deep;
+    double weight = front->weight + front->deep;
     double tolerance = GRID_NOISE_M + grab_tolerance(query, grab->T_world_hand.p);
     bool has_left = weight < OPEN_SHARE * grab->weight;
     for (int32_t side = 0; side < 2; side++) {
-        grab_patch patch = grab_side(touches, grab->axis, side == 0 ? -1.0 : 1.0);
+        grab_bin patch = grab_side(front, grab->axis, side == 0 ? -1.0 : 1.0);
         if (patch.weight >= KEEP_PIXELS) {
-            grab->ends[side] = rlf_add(grab->seat, patch.point);
+            grab->ends[side] = patch.point;
         } else if (grab_is_seen_through(query, grab, grab->ends[side], tolerance)) {
             has_left = true;
         }
     }
     grab->weight += has_left ? 0.0 : SETTLE * (weight - grab->weight);
     return has_left;
-}
-
-/* The body settles in the middle between its two sides, where both touch. */
-static void settle(phys_grab *grab, const grab_touches *touches)
-{
-    grab_patch a = grab_side(touches, grab->axis, -1.0);
-    grab_patch b = grab_side(touches, grab->axis, 1.0);
-    if (rlf_min(a.weight, b.weight) >= KEEP_PIXELS) {
-        grab->seat = rlf_mad(grab->seat, grab->axis, SETTLE * 0.5 * (b.off - a.off));
-    }
 }
 
 static void note_past(phys_grab *grab)
@@ -126,7 +169,7 @@ static void note_past(phys_grab *grab)
 }
 
 /* Whether the hand holds on. */
-static bool hold(const grid_query *query, phys_body *body, double dt)
+static bool hold(const rlf_world *world, const grid_query *query, phys_body *body, double dt)
 {
     phys_grab *grab = body->grab;
     if (!grab_follow_hand(query, grab, dt)) {
@@ -134,19 +177,23 @@ static bool hold(const grid_query *query, phys_body *body, double dt)
         return ++grab->lost_frames < LOST_FRAMES;
     }
     grab->lost_frames = 0;
-    rlf_pose pose = grab->T_world_hand;
-    grab_touches touches;
-    pose.p = rlf_transform(&grab->T_world_hand, grab->seat);
-    grab_look(query, body, &pose, 0.0, grab_tolerance(query, pose.p), &touches);
-    bool has_opened = is_open(query, grab, &touches);
-    settle(grab, &touches);
-    grab->open_frames = has_opened ? grab->open_frames + 1 : 0;
-    if (!has_opened) {
+    bool has_opened = false;
+    if (grab->kind == GRAB_PIXELS) {
+        grab_front front;
+        grab_look(query, body, &grab->T_world_hand, 0.0,
+                  grab_tolerance(query, grab->T_world_hand.p), &front);
+        const bool is_open = is_front_open(query, grab, &front);
+        grab->open_frames = is_open ? grab->open_frames + 1 : 0;
+        has_opened = grab->open_frames >= OPEN_FRAMES;
+    } else {
+        has_opened = grab_has_opened(world, grab);
+    }
+    if (grab->open_frames == 0 && (grab->open_votes & 1u) == 0) {
         note_past(grab);
     }
     /* What does not come along is held by something stronger. */
-    double left = rlf_length(rlf_sub(pose.p, body->x)) - rlf_length(grab->v) * dt;
-    return grab->open_frames < OPEN_FRAMES && left < body->shape.radius;
+    double left = rlf_length(rlf_sub(grab->T_world_hand.p, body->x)) - rlf_length(grab->v) * dt;
+    return !has_opened && left < body->shape.radius;
 }
 
 void phys_grab_update(rlf_world *world, const grid_query *query, double dt)
@@ -155,15 +202,19 @@ void phys_grab_update(rlf_world *world, const grid_query *query, double dt)
     if (sheet->depth == NULL || sheet->normal_x == NULL) {
         return;
     }
+    grab_note_hands(world, query);
     for (int32_t i = 0; i < world->body_top; i++) {
         phys_body *body = &world->bodies[i];
+        const grab_kind kind = body->grab != NULL ? body->grab->kind : GRAB_NONE;
         if (!body->is_alive || (phys_body_is_fixed(body) && !body->is_held)) {
             continue;
         }
         if (body->grab == NULL) {
             seek(world, query, body);
-        } else if (!hold(query, body, dt)) {
+        } else if (!hold(world, query, body, dt)) {
             phys_grab_release(body);
+            body->free_until = world->time + COOL_S;
+            body->soft_until = world->time + (kind == GRAB_CARRY ? 0.0 : SOFT_S);
         }
         if (body->grab != NULL) {
             phys_body_wake(body);
@@ -192,6 +243,7 @@ void phys_grab_forget(phys_body *body)
         body->grab = NULL;
     }
     body->grip_frames = 0;
+    body->grasp_votes = 0;
 }
 
 void phys_grab_release(phys_body *body)
@@ -217,7 +269,7 @@ void phys_grab_pull(const rlf_world *world, phys_body *body)
 {
     const phys_grab *grab = body->grab;
     double tau = rlf_clamp(world->grid_tau, -1.0, 0.1);
-    rlf_vec3 place = rlf_mad(rlf_transform(&grab->T_world_hand, grab->seat), grab->v, tau);
+    rlf_vec3 place = rlf_mad(grab->T_world_hand.p, grab->v, tau);
     rlf_quat turn = rlf_quat_from_rotation_vector(rlf_scale(grab->w, tau));
     turn = rlf_quat_mul(rlf_quat_mul(turn, grab->T_world_hand.q), rlf_quat_conjugate(body->q));
     double sign = turn.w < 0.0 ? -2.0 : 2.0;

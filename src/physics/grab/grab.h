@@ -1,7 +1,8 @@
-/* Bodies that a hand holds. What faces each other across a body and touches it on both sides holds
- * it by friction (Nguyen 1988: the line between the contacts lies in both friction cones). A depth
- * camera sees little of fingers and loses it now and then, so a critically damped joint to the
- * hand's motion carries the body until the fingers are seen to be open. No hand is recognised. */
+/* Bodies that a hand holds: what the cones of a fitted hand touch, and how the hand closes, say
+ * when a body is taken; the value at that moment, not contacts that vanish, says when it is let go.
+ * A critically damped joint to the hand's own look carries it. Where no hand is sure, pixels on two
+ * facing sides stand in (Nguyen 1988: the line between the contacts lies in both friction cones).
+ */
 #ifndef RLF_PHYSICS_GRAB_GRAB_H
 #define RLF_PHYSICS_GRAB_GRAB_H
 
@@ -11,7 +12,9 @@
 #define GRAB_POINTS_MAX 192 /* of the hand's surface */
 #define GRAB_RIMS_MAX 128   /* of its outline */
 #define GRAB_PAST 4         /* frames whose velocity a throw remembers: 0.1 s and a bit */
-#define GRAB_PATCHES_MAX 24
+#define GRAB_BINS 27        /* of normals: each coordinate below, about or above 0 */
+#define GRAB_TOUCHES_MAX 64
+#define GRAB_MOMENTS 24 /* frames that a hand's bends are remembered: 0.8 s */
 
 struct grid_query;
 
@@ -23,17 +26,48 @@ typedef struct grab_rim {
     bool is_of_column; /* the outline is crossed along its column */
 } grab_rim;
 
+/* What holds a body. */
+typedef enum grab_kind {
+    GRAB_NONE = 0,
+    GRAB_OPPOSE = 1,  /* thumb or palm against a finger */
+    GRAB_BETWEEN = 2, /* two hands */
+    GRAB_CARRY = 3,   /* it lies on a hand */
+    GRAB_PIXELS = 4   /* two sides are seen, no hand is known */
+} grab_kind;
+
+/* How a hand was bent, metres. */
+typedef struct grab_moment {
+    double time;     /* s of the world */
+    double aperture; /* thumb to index and middle, skin to skin */
+    double curl;     /* fingers' tips from their roots, mean */
+    rlf_vec3 palm;   /* world */
+} grab_moment;
+
+/* What is remembered of a hand. */
+struct phys_grab_hand {
+    int32_t id;                     /* 0 = free */
+    double seen, sure;              /* s of the world, when it was last */
+    grab_moment past[GRAB_MOMENTS]; /* in sure frames, the newest first */
+    int32_t past_count;
+    rlf_vec3 palm, facing, velocity; /* world */
+};
+
 /* A held body. The hand's frame is where the body's was when it was grabbed. */
 struct phys_grab {
     bool is_used;
     int32_t body;
+    grab_kind kind;
+    int32_t hands[2];      /* ids; 0 = none */
+    double aperture, curl; /* least so far, metres */
+    double apart;          /* of two palms at the grab, metres */
+    uint32_t open_votes;   /* bit k: k sure frames ago it was open */
+    rlf_vec3 up;           /* hand frame: against gravity at the grab */
     rlf_pose T_world_hand; /* when the newest grid was seen */
     rlf_vec3 v, w;         /* of the hand then, world */
-    rlf_vec3 ends[2];      /* where the two sides touched last, hand frame */
-    rlf_vec3 axis;         /* unit, from the first to the second, hand frame */
+    rlf_vec3 ends[2];      /* of pixels: where the two sides touched last, hand frame */
+    rlf_vec3 axis;         /* of pixels: unit, from the first to the second, hand frame */
     rlf_vec3 past_v[GRAB_PAST], past_w[GRAB_PAST]; /* the newest first */
     int32_t past_count;
-    rlf_vec3 seat;       /* where the body sits between the sides, hand frame */
     double weight;       /* pixels that touch while it is closed, smoothed */
     int32_t open_frames; /* in a row in which little of the hand touched */
     int32_t lost_frames; /* ... in which the hand was not found */
@@ -42,39 +76,80 @@ struct phys_grab {
     grab_rim rims[GRAB_RIMS_MAX];
 };
 
-/* Surface of the foreground that touches the body about one place; sums over `weight` pixels. Body
- * frame. */
-typedef struct grab_patch {
+/* Sums over the pixels that touch a body where its normals are alike; body frame. */
+typedef struct grab_bin {
     rlf_vec3 point, normal, velocity; /* normal: the body's, outward */
-    double off;                       /* m from the body, of the pixel that is nearest */
     double weight;
-} grab_patch;
+} grab_bin;
 
-typedef struct grab_touches {
-    grab_patch patches[GRAB_PATCHES_MAX];
-    int32_t count;
+/* The front of what touches a body. */
+typedef struct grab_front {
+    grab_bin bins[GRAB_BINS];
     double weight; /* pixels that touch */
     double deep;   /* ... and that lie deep in the body: it is passed through */
+} grab_front;
+
+/* Two sides of it that face each other, body frame. */
+typedef struct grab_grip {
+    grab_bin sides[2]; /* means */
+    rlf_vec3 axis;     /* unit, from the first to the second */
+} grab_grip;
+
+/* One cone that touches the body; body frame. */
+typedef struct grab_touch {
+    rlf_vec3 point, normal; /* on the body; its own, outward */
+    int32_t hand;           /* index in the grid */
+    int32_t group;          /* 0 the thumb .. 4 the little finger, 5 the palm */
+} grab_touch;
+
+#define GRAB_PALM 5
+
+typedef struct grab_touches {
+    grab_touch touch[GRAB_TOUCHES_MAX];
+    int32_t count;
+    bool is_judged;                 /* a sure hand is at it: pixels do not count */
+    bool is_in[RLF_GRID_HANDS_MAX]; /* the body is where that hand grasps */
 } grab_touches;
 
-/* Two sides that face each other, body frame. */
-typedef struct grab_grip {
-    grab_patch sides[2]; /* means */
-    rlf_vec3 axis;       /* unit, from the first to the second */
-} grab_grip;
+/* Why a body is taken. */
+typedef struct grab_reason {
+    grab_kind kind;
+    int32_t hands[2]; /* indices in the grid, -1 = none */
+    bool is_closing;  /* on it: the hand does not push it meanwhile */
+} grab_reason;
 
 /* Pixels' worth of noise and footprint at the body, metres: what is nearer touches. */
 double grab_tolerance(const struct grid_query *query, rlf_vec3 x);
 
-/* Collects what touches the body at that pose, the surface being tau seconds older than seen. */
+/* Middle of the round end of a digit, grid frame. */
+rlf_vec3 grab_tip(const rlf_grid_hand *hand, int32_t digit);
+
+/* Collects the cones of sure hands that touch the body at that pose, moved on by tau seconds. */
+void grab_touch_hands(const rlf_world *world, const struct grid_query *query, const phys_body *body,
+                      const rlf_pose *T_world_body, double tau, grab_touches *out);
+
+/* Collects the pixels that touch the body at that pose, the surface being tau seconds older than
+ * seen. */
 void grab_look(const struct grid_query *query, const phys_body *body, const rlf_pose *T_world_body,
-               double tau, double tolerance, grab_touches *out);
+               double tau, double tolerance, grab_front *out);
 
 /* The two sides with the most pixels that hold by friction; false when there are none. */
-bool grab_find_grip(const grab_touches *touches, grab_grip *out);
+bool grab_find_grip(const grab_front *front, grab_grip *out);
 
-/* The sum of the patches on one side of a known axis. */
-grab_patch grab_side(const grab_touches *touches, rlf_vec3 axis, double sign);
+/* The mean of the pixels on one side of a known axis. */
+grab_bin grab_side(const grab_front *front, rlf_vec3 axis, double sign);
+
+/* Notes how the grid's hands are bent. */
+void grab_note_hands(rlf_world *world, const struct grid_query *query);
+/* NULL when it is not remembered. */
+struct phys_grab_hand *grab_hand_of(const rlf_world *world, int32_t id);
+/* Whether what touches takes the body. */
+grab_reason grab_decide(const rlf_world *world, const struct grid_query *query,
+                        const phys_body *body, const grab_touches *touches);
+/* Notes the bends with which the body was taken. */
+void grab_begin_hold(const rlf_world *world, phys_grab *grab);
+/* Whether the hands are seen to let go. */
+bool grab_has_opened(const rlf_world *world, phys_grab *grab);
 
 /* Remembers the hand's surface and outline near the body. */
 void grab_learn_hand(const struct grid_query *query, const phys_body *body, phys_grab *grab);

@@ -108,7 +108,7 @@ void grid_guard_centre(const grid_query *query, phys_body *body, int32_t body_in
     rlf_vec3 flow = query->is_moving ? body->surface_flow : rlf_vec3_make(0, 0, 0);
     for (int32_t i = 0; i < 2; i++, flow = rlf_vec3_make(0, 0, 0)) {
         field_hit hit;
-        if (i == 0 && body->grab != NULL) {
+        if (i == 0 && (body->grab != NULL || query->time < body->soft_until)) {
             continue; /* fingers may close on it as far as they like */
         }
         if (!enters(query, sheets[i], from, to, flow, &hit) ||

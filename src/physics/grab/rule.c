@@ -1,0 +1,273 @@
+/* When a hand takes a body, and when it lets go. Both by the hand's bends: against those before it
+ * touched (Valkov et al. 2025: the closing alone tells a grasp; Furmanek et al. 2019: it begins
+ * before the touch), and against those with which it took the body (as hand trackers' own grab
+ * classifiers do). */
+#include "physics/grab/grab.h"
+
+#define OPPOSED_COS (-0.25) /* of the body's normals under two sides */
+#define BENEATH_COS 0.3     /* of a normal that points down */
+#define FACING_COS 0.5      /* a palm that carries looks up within 60 degrees */
+#define TILT_COS 0.64       /* ... and lets slide beyond 50 */
+#define SUPPORTS_MIN 2      /* cones beneath */
+#define CLOSED_M 0.008      /* by which thumb and fingers came nearer, */
+#define CURLED_M 0.006      /* or fingers' tips their roots */
+#define CLOSED_FRAMES 3     /* frames that were so much wider */
+#define OPENING_M 0.006     /* since the tightest of the last frames: it opens */
+#define LAST_FRAMES 4
+#define WINDOW_S 0.8
+#define VELOCITY_S 0.15
+#define CATCH_SPEED 0.6 /* of what falls on a hand */
+#define PALM_SPEED 0.25 /* m/s by the body: hands slow down to grasp */
+#define OPENED_M 0.018  /* beyond what it was when it took the body */
+#define SETTLE 0.02     /* of the least bends, upward, a frame */
+#define APART_M 0.025   /* two palms farther than at the grab */
+#define VOTES 4         /* of the last VOTES_OF sure frames */
+#define VOTES_OF 6
+
+struct phys_grab_hand *grab_hand_of(const rlf_world *world, int32_t id)
+{
+    for (int32_t k = 0; k < RLF_GRID_HANDS_MAX && id > 0; k++) {
+        if (world->grab_hands[k].id == id) {
+            return &world->grab_hands[k];
+        }
+    }
+    return NULL;
+}
+
+static struct phys_grab_hand *take_slot(rlf_world *world, int32_t id)
+{
+    struct phys_grab_hand *slot = grab_hand_of(world, id), *oldest = &world->grab_hands[0];
+    for (int32_t k = 0; k < RLF_GRID_HANDS_MAX && slot == NULL; k++) {
+        struct phys_grab_hand *h = &world->grab_hands[k];
+        oldest = h->id == 0 || h->seen < oldest->seen ? h : oldest;
+    }
+    if (slot == NULL) {
+        slot = oldest;
+        *slot = (struct phys_grab_hand){.id = id, .sure = -1e9};
+    }
+    return slot;
+}
+
+static grab_moment moment_of(const rlf_grid_hand *h, double time)
+{
+    grab_moment m = {.time = time};
+    for (int32_t digit = 1; digit < 5; digit++) {
+        const rlf_round_cone *root = &h->cones[6 + 3 * digit];
+        m.curl += 0.25 * rlf_length(rlf_sub(grab_tip(h, digit), root->a));
+        if (digit < 3) {
+            m.aperture += 0.5 * rlf_length(rlf_sub(grab_tip(h, digit), grab_tip(h, 0)));
+        }
+    }
+    m.aperture -= h->cones[8].radius_b + h->cones[11].radius_b;
+    return m;
+}
+
+/* Over the last frames: one fit trembles. */
+static void note_velocity(struct phys_grab_hand *h)
+{
+    const grab_moment *now = &h->past[0], *then = now;
+    for (int32_t k = 1; k < h->past_count && now->time - h->past[k].time < VELOCITY_S; k++) {
+        then = &h->past[k];
+    }
+    const double dt = now->time - then->time;
+    h->velocity = rlf_scale(rlf_sub(now->palm, then->palm), dt > 0.0 ? 1.0 / dt : 0.0);
+}
+
+void grab_note_hands(rlf_world *world, const grid_query *query)
+{
+    const rlf_grid *grid = query->grid;
+    const double now = world->time;
+    for (int32_t k = 0; k < grid->hand_count; k++) {
+        const rlf_grid_hand *h = &grid->hands[k];
+        struct phys_grab_hand *hand = take_slot(world, h->id);
+        hand->seen = now;
+        hand->palm = rlf_transform(&grid->T_world_grid, h->cones[1].b);
+        hand->facing = rlf_rotate(grid->T_world_grid.q, h->facing);
+        if (!h->is_sure) {
+            continue;
+        }
+        hand->sure = now;
+        for (int32_t i = GRAB_MOMENTS - 1; i > 0; i--) {
+            hand->past[i] = hand->past[i - 1];
+        }
+        hand->past[0] = moment_of(h, now);
+        hand->past[0].palm = hand->palm;
+        hand->past_count += hand->past_count < GRAB_MOMENTS;
+        note_velocity(hand);
+    }
+}
+
+/* Whether it has come from wider to here and does not open. */
+static bool closes(const struct phys_grab_hand *h)
+{
+    int32_t wider = 0;
+    bool opens = false;
+    const grab_moment *now = &h->past[0];
+    for (int32_t k = 1; k < h->past_count; k++) {
+        const grab_moment *m = &h->past[k];
+        if (now->time - m->time > WINDOW_S) {
+            break;
+        }
+        wider += m->aperture > now->aperture + CLOSED_M || m->curl > now->curl + CURLED_M;
+        opens = opens || (k < LAST_FRAMES && (m->aperture < now->aperture - OPENING_M ||
+                                              m->curl < now->curl - OPENING_M));
+    }
+    return wider >= CLOSED_FRAMES && !opens;
+}
+
+static bool is_opposed(const grab_touch *a, const grab_touch *b)
+{
+    const bool is_other = a->hand != b->hand || ((a->group == 0 || a->group == GRAB_PALM) &&
+                                                 b->group >= 1 && b->group <= 4);
+    return is_other && rlf_dot(a->normal, b->normal) < OPPOSED_COS;
+}
+
+static bool comes_slowly(const struct phys_grab_hand *h, const phys_body *body, double most)
+{
+    return rlf_length(rlf_sub(h->velocity, body->v)) < most;
+}
+
+static bool rests_on_room(const phys_body *body)
+{
+    for (int32_t k = 0; k < body->surface_count; k++) {
+        if (body->surface[k].other == RLF_CONTACT_BACKGROUND) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The hand beneath it that alone bears it; -1 = none. */
+static int32_t carrier(const rlf_world *world, const grid_query *query, const phys_body *body,
+                       const grab_touches *touches)
+{
+    const double g = rlf_length(world->def.gravity);
+    if (g <= 0.0 || rests_on_room(body)) {
+        return -1;
+    }
+    const rlf_vec3 down = rlf_scale(world->def.gravity, 1.0 / g);
+    const rlf_vec3 down_body = rlf_rotate(rlf_quat_conjugate(body->q), down);
+    int32_t beneath[RLF_GRID_HANDS_MAX] = {0};
+    for (int32_t i = 0; i < touches->count; i++) {
+        beneath[touches->touch[i].hand] +=
+            rlf_dot(touches->touch[i].normal, down_body) > BENEATH_COS;
+    }
+    for (int32_t k = 0; k < query->grid->hand_count; k++) {
+        const struct phys_grab_hand *h = grab_hand_of(world, query->grid->hands[k].id);
+        if (beneath[k] >= SUPPORTS_MIN && h != NULL && rlf_dot(h->facing, down) < -FACING_COS &&
+            comes_slowly(h, body, CATCH_SPEED)) {
+            return k;
+        }
+    }
+    return -1;
+}
+
+/* One side is touched, the other hidden or a little off: the body lies where the hand closes. */
+static void seek_hidden(const rlf_world *world, const grid_query *query, const phys_body *body,
+                        const grab_touches *touches, grab_reason *reason)
+{
+    uint32_t groups[RLF_GRID_HANDS_MAX] = {0};
+    for (int32_t i = 0; i < touches->count; i++) {
+        groups[touches->touch[i].hand] |= 1u << touches->touch[i].group;
+    }
+    for (int32_t k = 0; k < query->grid->hand_count; k++) {
+        const struct phys_grab_hand *h = grab_hand_of(world, query->grid->hands[k].id);
+        const uint32_t g = groups[k],
+                       fingers = (g >> 1 & 1u) + (g >> 2 & 1u) + (g >> 3 & 1u) + (g >> 4 & 1u);
+        const bool is_held = fingers >= 2 || (fingers == 1 && (g & 1u) != 0);
+        if (is_held && touches->is_in[k] && closes(h) && comes_slowly(h, body, PALM_SPEED)) {
+            reason->kind = GRAB_OPPOSE;
+            reason->hands[0] = k;
+            return;
+        }
+    }
+}
+
+grab_reason grab_decide(const rlf_world *world, const grid_query *query, const phys_body *body,
+                        const grab_touches *touches)
+{
+    grab_reason reason = {.hands = {-1, -1}};
+    for (int32_t i = 0; i < touches->count; i++) {
+        const grab_touch *a = &touches->touch[i];
+        const struct phys_grab_hand *h = grab_hand_of(world, query->grid->hands[a->hand].id);
+        const bool is_closing = h != NULL && touches->is_in[a->hand] && closes(h);
+        reason.is_closing = reason.is_closing || is_closing;
+        for (int32_t k = 0; k < touches->count; k++) {
+            const grab_touch *b = &touches->touch[k];
+            if (!is_opposed(a, b)) {
+                continue;
+            }
+            const bool is_two = a->hand != b->hand;
+            const struct phys_grab_hand *other =
+                grab_hand_of(world, query->grid->hands[b->hand].id);
+            if (h == NULL || other == NULL || !comes_slowly(h, body, PALM_SPEED) ||
+                !comes_slowly(other, body, PALM_SPEED) || (!is_two && !is_closing)) {
+                continue;
+            }
+            if (reason.kind != GRAB_OPPOSE) {
+                reason.kind = is_two ? GRAB_BETWEEN : GRAB_OPPOSE;
+                reason.hands[0] = a->hand;
+                reason.hands[1] = is_two ? b->hand : -1;
+            }
+        }
+    }
+    if (reason.kind == GRAB_NONE) {
+        seek_hidden(world, query, body, touches, &reason);
+    }
+    const int32_t under = reason.kind == GRAB_NONE ? carrier(world, query, body, touches) : -1;
+    if (under >= 0) {
+        reason.kind = GRAB_CARRY;
+        reason.hands[0] = under;
+    }
+    return reason;
+}
+
+void grab_begin_hold(const rlf_world *world, phys_grab *grab)
+{
+    const struct phys_grab_hand *a = grab_hand_of(world, grab->hands[0]);
+    const struct phys_grab_hand *b = grab_hand_of(world, grab->hands[1]);
+    if (a != NULL && a->past_count > 0) {
+        grab->aperture = a->past[0].aperture;
+        grab->curl = a->past[0].curl;
+    }
+    grab->apart = a != NULL && b != NULL ? rlf_length(rlf_sub(a->palm, b->palm)) : 0.0;
+    const rlf_vec3 up = rlf_neg(rlf_normalize(world->def.gravity));
+    grab->up = rlf_rotate(rlf_quat_conjugate(grab->T_world_hand.q), up);
+}
+
+static bool bends_back(phys_grab *grab, const grab_moment *now)
+{
+    const bool is_open =
+        now->aperture > grab->aperture + OPENED_M || now->curl > grab->curl + OPENED_M;
+    grab->aperture = rlf_min(
+        now->aperture, grab->aperture + SETTLE * rlf_max(now->aperture - grab->aperture, 0.0));
+    grab->curl = rlf_min(now->curl, grab->curl + SETTLE * rlf_max(now->curl - grab->curl, 0.0));
+    return is_open;
+}
+
+bool grab_has_opened(const rlf_world *world, phys_grab *grab)
+{
+    const struct phys_grab_hand *a = grab_hand_of(world, grab->hands[0]);
+    const struct phys_grab_hand *b = grab_hand_of(world, grab->hands[1]);
+    if (grab->kind == GRAB_CARRY) {
+        const rlf_vec3 up = rlf_rotate(grab->T_world_hand.q, grab->up);
+        return rlf_dot(up, rlf_neg(rlf_normalize(world->def.gravity))) < TILT_COS;
+    }
+    bool is_open = false;
+    if (grab->kind == GRAB_BETWEEN) {
+        if (a == NULL || b == NULL || a->seen < world->time || b->seen < world->time) {
+            return false;
+        }
+        is_open = rlf_length(rlf_sub(a->palm, b->palm)) > grab->apart + APART_M;
+    } else if (a == NULL || a->sure < world->time || a->past_count == 0) {
+        return false;
+    } else {
+        is_open = bends_back(grab, &a->past[0]);
+    }
+    grab->open_votes = (grab->open_votes << 1 | (is_open ? 1u : 0u)) & ((1u << VOTES_OF) - 1u);
+    int32_t votes = 0;
+    for (int32_t k = 0; k < VOTES_OF; k++) {
+        votes += grab->open_votes >> k & 1u;
+    }
+    return votes >= VOTES;
+}
