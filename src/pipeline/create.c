@@ -187,7 +187,8 @@ static rlf_result create_stages(rlf_pipeline *p)
         const rlf_camera *seen = &p->compositor_def.grid;
         result = far_side_create(seen->width, seen->height, &p->far);
     }
-    if (result == RLF_OK && (p->def.enable_hands || p->def.world.enable_grab || hand_scene_binds(&p->scene))) {
+    if (result == RLF_OK &&
+        (p->def.enable_hands || p->def.world.enable_grab || hand_scene_binds(&p->scene))) {
         result = rlf_pipeline_set_hands(p, true);
     }
     if (result != RLF_OK || !p->def.enable_render) {

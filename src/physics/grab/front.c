@@ -40,13 +40,15 @@ static int32_t third(double x)
     return x > BIN_COS ? 2 : (x < -BIN_COS ? 0 : 1);
 }
 
-static void add_touch(grab_front *out, rlf_vec3 point, rlf_vec3 normal, rlf_vec3 velocity)
+static void add_touch(grab_front *out, rlf_vec3 point, rlf_vec3 normal, double off,
+                      rlf_vec3 velocity)
 {
     grab_bin *bin = &out->bins[9 * third(normal.x) + 3 * third(normal.y) + third(normal.z)];
     out->weight += 1.0;
     bin->point = rlf_add(bin->point, point);
     bin->normal = rlf_add(bin->normal, normal);
     bin->velocity = rlf_add(bin->velocity, velocity);
+    bin->off = bin->weight > 0.0 ? rlf_min(bin->off, off) : off;
     bin->weight += 1.0;
 }
 
@@ -86,7 +88,7 @@ static void look_at(look_job *job, const field_cell *cell)
     if (distance <= job->tolerance) {
         rlf_vec3 seen = rlf_neg(rlf_rotate(to_body, cell->normal));
         gradient = bears(job, cell, p) ? seen : gradient;
-        add_touch(job->out, rlf_mad(p, gradient, -distance), gradient,
+        add_touch(job->out, rlf_mad(p, gradient, -distance), gradient, distance,
                   rlf_rotate(to_body, cell->velocity));
     }
 }
@@ -126,19 +128,20 @@ static bool is_in_cone(rlf_vec3 normal, rlf_vec3 along)
 
 grab_bin grab_side(const grab_front *front, rlf_vec3 axis, double sign)
 {
-    grab_bin sum = {.weight = 0.0};
+    grab_bin sum = {.off = 1.0};
     for (int32_t i = 0; i < GRAB_BINS; i++) {
         const grab_bin *bin = &front->bins[i];
         if (bin->weight > 0.0 && is_in_cone(bin->normal, rlf_scale(axis, sign))) {
             sum.point = rlf_add(sum.point, bin->point);
             sum.normal = rlf_add(sum.normal, bin->normal);
             sum.velocity = rlf_add(sum.velocity, bin->velocity);
+            sum.off = rlf_min(sum.off, bin->off);
             sum.weight += bin->weight;
         }
     }
     const double scale = 1.0 / rlf_max(sum.weight, 1.0);
     return (grab_bin){rlf_scale(sum.point, scale), rlf_scale(sum.normal, scale),
-                      rlf_scale(sum.velocity, scale), sum.weight};
+                      rlf_scale(sum.velocity, scale), sum.off, sum.weight};
 }
 
 /* The grip of two bins that face each other. */

@@ -148,13 +148,22 @@ static bool is_front_open(const grid_query *query, phys_grab *grab, const grab_f
     for (int32_t side = 0; side < 2; side++) {
         grab_bin patch = grab_side(front, grab->axis, side == 0 ? -1.0 : 1.0);
         if (patch.weight >= KEEP_PIXELS) {
-            grab->ends[side] = patch.point;
+            grab->ends[side] = rlf_add(grab->seat, patch.point);
         } else if (grab_is_seen_through(query, grab, grab->ends[side], tolerance)) {
             has_left = true;
         }
     }
     grab->weight += has_left ? 0.0 : SETTLE * (weight - grab->weight);
     return has_left;
+}
+
+/* The body settles in the middle between its two sides, where both touch. */
+static void settle(phys_grab *grab, const grab_front *front)
+{
+    grab_bin a = grab_side(front, grab->axis, -1.0), b = grab_side(front, grab->axis, 1.0);
+    if (rlf_min(a.weight, b.weight) >= KEEP_PIXELS) {
+        grab->seat = rlf_mad(grab->seat, grab->axis, SETTLE * 0.5 * (b.off - a.off));
+    }
 }
 
 static void note_past(phys_grab *grab)
@@ -168,6 +177,19 @@ static void note_past(phys_grab *grab)
     grab->past_count += grab->past_count < GRAB_PAST;
 }
 
+/* Whether pixels alone say that the hand has opened. */
+static bool has_front_opened(const grid_query *query, const phys_body *body, phys_grab *grab)
+{
+    grab_front front;
+    rlf_pose pose = grab->T_world_hand;
+    pose.p = rlf_transform(&grab->T_world_hand, grab->seat);
+    grab_look(query, body, &pose, 0.0, grab_tolerance(query, pose.p), &front);
+    const bool is_open = is_front_open(query, grab, &front);
+    settle(grab, &front);
+    grab->open_frames = is_open ? grab->open_frames + 1 : 0;
+    return grab->open_frames >= OPEN_FRAMES;
+}
+
 /* Whether the hand holds on. */
 static bool hold(const rlf_world *world, const grid_query *query, phys_body *body, double dt)
 {
@@ -177,22 +199,14 @@ static bool hold(const rlf_world *world, const grid_query *query, phys_body *bod
         return ++grab->lost_frames < LOST_FRAMES;
     }
     grab->lost_frames = 0;
-    bool has_opened = false;
-    if (grab->kind == GRAB_PIXELS) {
-        grab_front front;
-        grab_look(query, body, &grab->T_world_hand, 0.0,
-                  grab_tolerance(query, grab->T_world_hand.p), &front);
-        const bool is_open = is_front_open(query, grab, &front);
-        grab->open_frames = is_open ? grab->open_frames + 1 : 0;
-        has_opened = grab->open_frames >= OPEN_FRAMES;
-    } else {
-        has_opened = grab_has_opened(world, grab);
-    }
+    const bool has_opened = grab->kind == GRAB_PIXELS ? has_front_opened(query, body, grab)
+                                                      : grab_has_opened(world, grab);
     if (grab->open_frames == 0 && (grab->open_votes & 1u) == 0) {
         note_past(grab);
     }
     /* What does not come along is held by something stronger. */
-    double left = rlf_length(rlf_sub(grab->T_world_hand.p, body->x)) - rlf_length(grab->v) * dt;
+    const rlf_vec3 place = rlf_transform(&grab->T_world_hand, grab->seat);
+    const double left = rlf_length(rlf_sub(place, body->x)) - rlf_length(grab->v) * dt;
     return !has_opened && left < body->shape.radius;
 }
 
@@ -269,7 +283,7 @@ void phys_grab_pull(const rlf_world *world, phys_body *body)
 {
     const phys_grab *grab = body->grab;
     double tau = rlf_clamp(world->grid_tau, -1.0, 0.1);
-    rlf_vec3 place = rlf_mad(grab->T_world_hand.p, grab->v, tau);
+    rlf_vec3 place = rlf_mad(rlf_transform(&grab->T_world_hand, grab->seat), grab->v, tau);
     rlf_quat turn = rlf_quat_from_rotation_vector(rlf_scale(grab->w, tau));
     turn = rlf_quat_mul(rlf_quat_mul(turn, grab->T_world_hand.q), rlf_quat_conjugate(body->q));
     double sign = turn.w < 0.0 ? -2.0 : 2.0;

@@ -68,6 +68,7 @@ struct phys_grab {
     rlf_vec3 axis;         /* of pixels: unit, from the first to the second, hand frame */
     rlf_vec3 past_v[GRAB_PAST], past_w[GRAB_PAST]; /* the newest first */
     int32_t past_count;
+    rlf_vec3 seat;       /* of pixels: where the body sits between the sides, hand frame */
     double weight;       /* pixels that touch while it is closed, smoothed */
     int32_t open_frames; /* in a row in which little of the hand touched */
     int32_t lost_frames; /* ... in which the hand was not found */
@@ -79,6 +80,7 @@ struct phys_grab {
 /* Sums over the pixels that touch a body where its normals are alike; body frame. */
 typedef struct grab_bin {
     rlf_vec3 point, normal, velocity; /* normal: the body's, outward */
+    double off;                       /* m from the body, of the pixel that is nearest */
     double weight;
 } grab_bin;
 

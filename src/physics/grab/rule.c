@@ -15,7 +15,6 @@
 #define OPENING_M 0.006     /* since the tightest of the last frames: it opens */
 #define LAST_FRAMES 4
 #define WINDOW_S 0.8
-#define VELOCITY_S 0.15
 #define CATCH_SPEED 0.6 /* of what falls on a hand */
 #define PALM_SPEED 0.25 /* m/s by the body: hands slow down to grasp */
 #define OPENED_M 0.018  /* beyond what it was when it took the body */
@@ -23,79 +22,6 @@
 #define APART_M 0.025   /* two palms farther than at the grab */
 #define VOTES 4         /* of the last VOTES_OF sure frames */
 #define VOTES_OF 6
-
-struct phys_grab_hand *grab_hand_of(const rlf_world *world, int32_t id)
-{
-    for (int32_t k = 0; k < RLF_GRID_HANDS_MAX && id > 0; k++) {
-        if (world->grab_hands[k].id == id) {
-            return &world->grab_hands[k];
-        }
-    }
-    return NULL;
-}
-
-static struct phys_grab_hand *take_slot(rlf_world *world, int32_t id)
-{
-    struct phys_grab_hand *slot = grab_hand_of(world, id), *oldest = &world->grab_hands[0];
-    for (int32_t k = 0; k < RLF_GRID_HANDS_MAX && slot == NULL; k++) {
-        struct phys_grab_hand *h = &world->grab_hands[k];
-        oldest = h->id == 0 || h->seen < oldest->seen ? h : oldest;
-    }
-    if (slot == NULL) {
-        slot = oldest;
-        *slot = (struct phys_grab_hand){.id = id, .sure = -1e9};
-    }
-    return slot;
-}
-
-static grab_moment moment_of(const rlf_grid_hand *h, double time)
-{
-    grab_moment m = {.time = time};
-    for (int32_t digit = 1; digit < 5; digit++) {
-        const rlf_round_cone *root = &h->cones[6 + 3 * digit];
-        m.curl += 0.25 * rlf_length(rlf_sub(grab_tip(h, digit), root->a));
-        if (digit < 3) {
-            m.aperture += 0.5 * rlf_length(rlf_sub(grab_tip(h, digit), grab_tip(h, 0)));
-        }
-    }
-    m.aperture -= h->cones[8].radius_b + h->cones[11].radius_b;
-    return m;
-}
-
-/* Over the last frames: one fit trembles. */
-static void note_velocity(struct phys_grab_hand *h)
-{
-    const grab_moment *now = &h->past[0], *then = now;
-    for (int32_t k = 1; k < h->past_count && now->time - h->past[k].time < VELOCITY_S; k++) {
-        then = &h->past[k];
-    }
-    const double dt = now->time - then->time;
-    h->velocity = rlf_scale(rlf_sub(now->palm, then->palm), dt > 0.0 ? 1.0 / dt : 0.0);
-}
-
-void grab_note_hands(rlf_world *world, const grid_query *query)
-{
-    const rlf_grid *grid = query->grid;
-    const double now = world->time;
-    for (int32_t k = 0; k < grid->hand_count; k++) {
-        const rlf_grid_hand *h = &grid->hands[k];
-        struct phys_grab_hand *hand = take_slot(world, h->id);
-        hand->seen = now;
-        hand->palm = rlf_transform(&grid->T_world_grid, h->cones[1].b);
-        hand->facing = rlf_rotate(grid->T_world_grid.q, h->facing);
-        if (!h->is_sure) {
-            continue;
-        }
-        hand->sure = now;
-        for (int32_t i = GRAB_MOMENTS - 1; i > 0; i--) {
-            hand->past[i] = hand->past[i - 1];
-        }
-        hand->past[0] = moment_of(h, now);
-        hand->past[0].palm = hand->palm;
-        hand->past_count += hand->past_count < GRAB_MOMENTS;
-        note_velocity(hand);
-    }
-}
 
 /* Whether it has come from wider to here and does not open. */
 static bool closes(const struct phys_grab_hand *h)

@@ -7,11 +7,6 @@
 #define INSIDE_M 0.015 /* from the body: the place of a grasp is in it */
 #define HOLLOW_M 0.035 /* a fist's middle before its palm */
 
-rlf_vec3 grab_tip(const rlf_grid_hand *h, int32_t digit)
-{
-    return h->cones[6 + 3 * digit + 2].b;
-}
-
 /* The least distance of a cone to the shape. */
 static double nearest(const phys_shape *shape, const rlf_round_cone *cone, rlf_vec3 *point,
                       rlf_vec3 *normal)
