@@ -56,6 +56,7 @@ typedef struct rlf_grid_region {
 typedef struct rlf_grid_hand {
     int32_t id;      /* > 0; the same as long as it is the same hand */
     bool is_sure;    /* false: it is there, but its cones may be wrong */
+    rlf_vec3 palm;   /* its middle, on the seen skin, metres */
     rlf_vec3 facing; /* unit, out of the palm */
     rlf_round_cone cones[RLF_GRID_HAND_CONES];
 } rlf_grid_hand;

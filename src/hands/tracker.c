@@ -18,6 +18,7 @@
 #define GO_ON_S 0.12           /* a fit goes on without a limb's end after such gaps, */
 #define SAME_M 0.09            /* which is farther than this from it, */
 #define ALONE_LIMB 0.2         /* where it has been one, */
+#define ALONE_ENERGY 45.0      /* while one frame fits it so well, */
 #define ALONE_KEEP 0.98        /* less likely with each frame */
 #define FIT_GAP_S 0.3          /* a fit that is older begins anew */
 
@@ -281,6 +282,9 @@ static bool fit_hand(rlf_hand_tracker *t, const rlf_surface *surface, hand_seen 
         return false;
     }
     const double energy = f->search.hope[0].energy;
+    if (seen->limb >= LIMBS_MAX && f->search.hope[0].fit.energy > ALONE_ENERGY) {
+        return false;
+    }
     hand_gesture_read(&seen->hand, &f->search, t->crop);
     const double thing = hand_likeness_of_thing(t->crop);
     const double fitted = hand_likeness_of_fit(seen->hand.confidence, energy, thing);

@@ -87,6 +87,7 @@ void hand_stage_show(hand_stage *stage, rlf_grid *grid)
         }
         rlf_grid_hand *shape = &stage->shapes[stage->shape_count++];
         *shape = (rlf_grid_hand){.id = h->id, .is_sure = h->is_shape_sure};
+        shape->palm = h->palm;
         shape->facing = h->facing;
         memcpy(shape->cones, h->shape, sizeof(shape->cones));
     }

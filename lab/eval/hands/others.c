@@ -151,6 +151,7 @@ static int32_t true_hands(others_run *run, rlf_grid_hand *out)
         another_cone cones[ANOTHER_CONES];
         another_hand_cones(&run->act.hand[k], cones);
         out[k].is_sure = true;
+        out[k].palm = run->act.hand[k].palm;
         for (int32_t i = 0; i < ANOTHER_CONES; i++) {
             out[k].cones[i] =
                 (rlf_round_cone){cones[i].a, cones[i].b, cones[i].radius, cones[i].radius};
@@ -167,8 +168,8 @@ static int32_t found_hands(const rlf_hands *found, rlf_grid_hand *out)
     for (int32_t k = 0; k < found->count && count < 2; k++) {
         const rlf_hand *h = &found->hand[k];
         if (h->confidence >= RLF_HAND_SURE && h->shape[0].radius_a > 0.0) {
-            out[count] =
-                (rlf_grid_hand){.id = h->id, .is_sure = h->is_shape_sure, .facing = h->facing};
+            out[count] = (rlf_grid_hand){
+                .id = h->id, .is_sure = h->is_shape_sure, .palm = h->palm, .facing = h->facing};
             memcpy(out[count++].cones, h->shape, sizeof(h->shape));
         }
     }

@@ -122,14 +122,14 @@ static void seek(rlf_world *world, const grid_query *query, phys_body *body)
         return;
     }
     grab_touch_hands(world, query, body, &pose, query->tau, &touches);
-    if (!touches.is_judged) {
+    reason = grab_decide(world, query, body, &touches);
+    body->soft_until = reason.is_closing ? world->time + SOFT_S : body->soft_until;
+    if (reason.kind == GRAB_NONE && !touches.is_judged && !reason.is_closing) {
         body->grasp_votes = body->grasp_votes << 1 & GRASP_MASK;
         seek_front(world, query, body);
         return;
     }
-    reason = grab_decide(world, query, body, &touches);
     body->grip_frames = 0;
-    body->soft_until = reason.is_closing ? world->time + SOFT_S : body->soft_until;
     body->grasp_votes = (body->grasp_votes << 1 | (reason.kind != GRAB_NONE)) & GRASP_MASK;
     uint32_t v = body->grasp_votes;
     const uint32_t votes = (v & 1u) + (v >> 1 & 1u) + (v >> 2 & 1u) + (v >> 3);

@@ -37,6 +37,7 @@ typedef enum grab_kind {
 
 /* How a hand was bent, metres. */
 typedef struct grab_moment {
+    bool is_sure;    /* its bends count */
     double time;     /* s of the world */
     double aperture; /* thumb to index and middle, skin to skin */
     double curl;     /* fingers' tips from their roots, mean */
@@ -49,7 +50,8 @@ struct phys_grab_hand {
     double seen, sure;              /* s of the world, when it was last */
     grab_moment past[GRAB_MOMENTS]; /* in sure frames, the newest first */
     int32_t past_count;
-    rlf_vec3 palm, facing, velocity; /* world */
+    rlf_vec3 palm, core;       /* of the palm, seen and fitted; world */
+    rlf_vec3 facing, velocity; /* world */
 };
 
 /* A held body. The hand's frame is where the body's was when it was grabbed. */
@@ -59,7 +61,7 @@ struct phys_grab {
     grab_kind kind;
     int32_t hands[2];      /* ids; 0 = none */
     double aperture, curl; /* least so far, metres */
-    double apart;          /* of two palms at the grab, metres */
+    double apart[2];       /* of two palms at the grab, seen and fitted, metres */
     uint32_t open_votes;   /* bit k: k sure frames ago it was open */
     rlf_vec3 up;           /* hand frame: against gravity at the grab */
     rlf_pose T_world_hand; /* when the newest grid was seen */
@@ -109,8 +111,10 @@ typedef struct grab_touch {
 typedef struct grab_touches {
     grab_touch touch[GRAB_TOUCHES_MAX];
     int32_t count;
-    bool is_judged;                 /* a sure hand is at it: pixels do not count */
-    bool is_in[RLF_GRID_HANDS_MAX]; /* the body is where that hand grasps */
+    bool is_judged;                           /* a sure hand is at it: pixels do not count */
+    bool is_in[RLF_GRID_HANDS_MAX];           /* the body is where that hand grasps */
+    double palm_off[RLF_GRID_HANDS_MAX];      /* of any hand's palm from the body, metres, */
+    rlf_vec3 palm_normal[RLF_GRID_HANDS_MAX]; /* and the body's normal there */
 } grab_touches;
 
 /* Why a body is taken. */
@@ -125,6 +129,8 @@ double grab_tolerance(const struct grid_query *query, rlf_vec3 x);
 
 /* Middle of the round end of a digit, grid frame. */
 rlf_vec3 grab_tip(const rlf_grid_hand *hand, int32_t digit);
+/* Middle of the fitted palm, grid frame. */
+rlf_vec3 grab_core(const rlf_grid_hand *hand);
 
 /* Collects the cones of sure hands that touch the body at that pose, moved on by tau seconds. */
 void grab_touch_hands(const rlf_world *world, const struct grid_query *query, const phys_body *body,

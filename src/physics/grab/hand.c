@@ -8,6 +8,11 @@ rlf_vec3 grab_tip(const rlf_grid_hand *h, int32_t digit)
     return h->cones[6 + 3 * digit + 2].b;
 }
 
+rlf_vec3 grab_core(const rlf_grid_hand *h)
+{
+    return rlf_scale(rlf_add(h->cones[1].a, h->cones[1].b), 0.5);
+}
+
 struct phys_grab_hand *grab_hand_of(const rlf_world *world, int32_t id)
 {
     for (int32_t k = 0; k < RLF_GRID_HANDS_MAX && id > 0; k++) {
@@ -64,17 +69,16 @@ void grab_note_hands(rlf_world *world, const grid_query *query)
         const rlf_grid_hand *h = &grid->hands[k];
         struct phys_grab_hand *hand = take_slot(world, h->id);
         hand->seen = now;
-        hand->palm = rlf_transform(&grid->T_world_grid, h->cones[1].b);
+        hand->palm = rlf_transform(&grid->T_world_grid, h->palm);
+        hand->core = rlf_transform(&grid->T_world_grid, grab_core(h));
         hand->facing = rlf_rotate(grid->T_world_grid.q, h->facing);
-        if (!h->is_sure) {
-            continue;
-        }
-        hand->sure = now;
+        hand->sure = h->is_sure ? now : hand->sure;
         for (int32_t i = GRAB_MOMENTS - 1; i > 0; i--) {
             hand->past[i] = hand->past[i - 1];
         }
         hand->past[0] = moment_of(h, now);
         hand->past[0].palm = hand->palm;
+        hand->past[0].is_sure = h->is_sure;
         hand->past_count += hand->past_count < GRAB_MOMENTS;
         note_velocity(hand);
     }

@@ -19,6 +19,7 @@
 #define PALM_SPEED 0.25 /* m/s by the body: hands slow down to grasp */
 #define OPENED_M 0.018  /* beyond what it was when it took the body */
 #define SETTLE 0.02     /* of the least bends, upward, a frame */
+#define PALM_M 0.05     /* of two palms, seen at their edges, from what is between them */
 #define APART_M 0.025   /* two palms farther than at the grab */
 #define VOTES 4         /* of the last VOTES_OF sure frames */
 #define VOTES_OF 6
@@ -31,6 +32,9 @@ static bool closes(const struct phys_grab_hand *h)
     const grab_moment *now = &h->past[0];
     for (int32_t k = 1; k < h->past_count; k++) {
         const grab_moment *m = &h->past[k];
+        if (!m->is_sure) {
+            continue;
+        }
         if (now->time - m->time > WINDOW_S) {
             break;
         }
@@ -43,8 +47,8 @@ static bool closes(const struct phys_grab_hand *h)
 
 static bool is_opposed(const grab_touch *a, const grab_touch *b)
 {
-    const bool is_other = a->hand != b->hand || ((a->group == 0 || a->group == GRAB_PALM) &&
-                                                 b->group >= 1 && b->group <= 4);
+    const bool is_other = a->hand == b->hand && (a->group == 0 || a->group == GRAB_PALM) &&
+                          b->group >= 1 && b->group <= 4;
     return is_other && rlf_dot(a->normal, b->normal) < OPPOSED_COS;
 }
 
@@ -109,36 +113,77 @@ static void seek_hidden(const rlf_world *world, const grid_query *query, const p
     }
 }
 
-grab_reason grab_decide(const rlf_world *world, const grid_query *query, const phys_body *body,
-                        const grab_touches *touches)
+/* Thumb or palm and a finger face each other across the body. */
+static void seek_opposed(const rlf_world *world, const grid_query *query, const phys_body *body,
+                         const grab_touches *touches, grab_reason *reason)
 {
-    grab_reason reason = {.hands = {-1, -1}};
     for (int32_t i = 0; i < touches->count; i++) {
         const grab_touch *a = &touches->touch[i];
         const struct phys_grab_hand *h = grab_hand_of(world, query->grid->hands[a->hand].id);
         const bool is_closing = h != NULL && touches->is_in[a->hand] && closes(h);
-        reason.is_closing = reason.is_closing || is_closing;
-        for (int32_t k = 0; k < touches->count; k++) {
-            const grab_touch *b = &touches->touch[k];
-            if (!is_opposed(a, b)) {
-                continue;
-            }
-            const bool is_two = a->hand != b->hand;
-            const struct phys_grab_hand *other =
-                grab_hand_of(world, query->grid->hands[b->hand].id);
-            if (h == NULL || other == NULL || !comes_slowly(h, body, PALM_SPEED) ||
-                !comes_slowly(other, body, PALM_SPEED) || (!is_two && !is_closing)) {
-                continue;
-            }
-            if (reason.kind != GRAB_OPPOSE) {
-                reason.kind = is_two ? GRAB_BETWEEN : GRAB_OPPOSE;
-                reason.hands[0] = a->hand;
-                reason.hands[1] = is_two ? b->hand : -1;
+        reason->is_closing = reason->is_closing || is_closing;
+        for (int32_t k = 0; k < touches->count && is_closing; k++) {
+            if (is_opposed(a, &touches->touch[k]) && comes_slowly(h, body, PALM_SPEED)) {
+                reason->kind = GRAB_OPPOSE;
+                reason->hands[0] = a->hand;
+                return;
             }
         }
     }
+}
+
+/* Whether two palms have come nearer, and do not part. */
+static bool come_together(const struct phys_grab_hand *a, const struct phys_grab_hand *b)
+{
+    const double now = rlf_length(rlf_sub(a->palm, b->palm));
+    bool has_come = false;
+    for (int32_t i = 1, k = 1; i < a->past_count && k < b->past_count;) {
+        const double ti = a->past[i].time, tk = b->past[k].time;
+        if (ti == tk && a->past[0].time - ti < WINDOW_S) {
+            const double then = rlf_length(rlf_sub(a->past[i].palm, b->past[k].palm));
+            has_come = has_come || then > now + CLOSED_M;
+        }
+        i += ti >= tk;
+        k += tk >= ti;
+    }
+    return has_come;
+}
+
+/* Two palms are at two sides of it. */
+static void seek_between(const rlf_world *world, const grid_query *query, const phys_body *body,
+                         const grab_touches *touches, grab_reason *reason)
+{
+    for (int32_t i = 0; i < query->grid->hand_count; i++) {
+        const struct phys_grab_hand *a = grab_hand_of(world, query->grid->hands[i].id);
+        for (int32_t k = 0; k < i && a != NULL; k++) {
+            const struct phys_grab_hand *b = grab_hand_of(world, query->grid->hands[k].id);
+            const double off = rlf_max(touches->palm_off[i], touches->palm_off[k]);
+            const double cosine = rlf_dot(touches->palm_normal[i], touches->palm_normal[k]);
+            if (b == NULL || off > 2.0 * PALM_M || cosine > OPPOSED_COS || !come_together(a, b)) {
+                continue;
+            }
+            reason->is_closing = true;
+            if (off < PALM_M && comes_slowly(a, body, PALM_SPEED) &&
+                comes_slowly(b, body, PALM_SPEED)) {
+                reason->kind = GRAB_BETWEEN;
+                reason->hands[0] = i;
+                reason->hands[1] = k;
+                return;
+            }
+        }
+    }
+}
+
+grab_reason grab_decide(const rlf_world *world, const grid_query *query, const phys_body *body,
+                        const grab_touches *touches)
+{
+    grab_reason reason = {.hands = {-1, -1}};
+    seek_opposed(world, query, body, touches, &reason);
     if (reason.kind == GRAB_NONE) {
         seek_hidden(world, query, body, touches, &reason);
+    }
+    if (reason.kind == GRAB_NONE) {
+        seek_between(world, query, body, touches, &reason);
     }
     const int32_t under = reason.kind == GRAB_NONE ? carrier(world, query, body, touches) : -1;
     if (under >= 0) {
@@ -156,7 +201,10 @@ void grab_begin_hold(const rlf_world *world, phys_grab *grab)
         grab->aperture = a->past[0].aperture;
         grab->curl = a->past[0].curl;
     }
-    grab->apart = a != NULL && b != NULL ? rlf_length(rlf_sub(a->palm, b->palm)) : 0.0;
+    if (a != NULL && b != NULL) {
+        grab->apart[0] = rlf_length(rlf_sub(a->palm, b->palm));
+        grab->apart[1] = rlf_length(rlf_sub(a->core, b->core));
+    }
     const rlf_vec3 up = rlf_neg(rlf_normalize(world->def.gravity));
     grab->up = rlf_rotate(rlf_quat_conjugate(grab->T_world_hand.q), up);
 }
@@ -184,7 +232,8 @@ bool grab_has_opened(const rlf_world *world, phys_grab *grab)
         if (a == NULL || b == NULL || a->seen < world->time || b->seen < world->time) {
             return false;
         }
-        is_open = rlf_length(rlf_sub(a->palm, b->palm)) > grab->apart + APART_M;
+        is_open = rlf_length(rlf_sub(a->palm, b->palm)) > grab->apart[0] + APART_M &&
+                  rlf_length(rlf_sub(a->core, b->core)) > grab->apart[1] + APART_M;
     } else if (a == NULL || a->sure < world->time || a->past_count == 0) {
         return false;
     } else {

@@ -61,6 +61,19 @@ static void add_cones(const grid_query *query, int32_t hand, const phys_shape *s
     }
 }
 
+/* The nearer of the palm's middles, seen and fitted. */
+static void note_palm(const phys_shape *shape, rlf_vec3 seen, rlf_vec3 fitted, int32_t hand,
+                      grab_touches *out)
+{
+    rlf_vec3 normal;
+    const double off = phys_shape_distance(shape, fitted, &normal);
+    out->palm_off[hand] = phys_shape_distance(shape, seen, &out->palm_normal[hand]);
+    if (off < out->palm_off[hand]) {
+        out->palm_off[hand] = off;
+        out->palm_normal[hand] = normal;
+    }
+}
+
 void grab_touch_hands(const rlf_world *world, const grid_query *query, const phys_body *body,
                       const rlf_pose *T_world_body, double tau, grab_touches *out)
 {
@@ -75,6 +88,8 @@ void grab_touch_hands(const rlf_world *world, const grid_query *query, const phy
         const rlf_vec3 v = past != NULL ? past->velocity : rlf_vec3_make(0, 0, 0);
         const rlf_vec3 shift = rlf_scale(rlf_rotate(query->T_grid_world.q, v), tau);
         const rlf_vec3 off = rlf_sub(rlf_add(h->cones[1].b, shift), T_grid_body.p);
+        note_palm(&body->shape, rlf_transform(&T_body_grid, rlf_add(h->palm, shift)),
+                  rlf_transform(&T_body_grid, rlf_add(grab_core(h), shift)), k, out);
         out->is_in[k] = false;
         if (rlf_length(off) > body->shape.radius + REACH_M || !h->is_sure) {
             continue;
