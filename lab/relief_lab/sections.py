@@ -26,6 +26,7 @@ OTHERS = {
     "moving": "the camera moves: its pose against the map",
     "standing": "cameras that stand, and that are moved and put down",
     "hands": "scripted hands grasp, carry and throw",
+    "grasps": "another's hands, drawn, grasp, begin to and do not, and move among bodies",
     "gestures": "palms, finger tips and gestures of scripted hands",
     "calibration": "cameras from pictures of a board, where they are known",
     "map": "the room fused from a moving camera, against the true one",

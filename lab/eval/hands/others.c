@@ -18,7 +18,6 @@
 #define AIR_M 0.03
 #define AIR_FRAMES 10
 #define GRABBED_FRAMES 3
-#define OPEN_M 0.15 /* a held thing has risen ... */
 
 typedef enum truth_part {
     TRUTH_NONE = 0,
@@ -39,7 +38,11 @@ typedef struct others_run {
     rlf_world *world; /* the pipeline's, or its own */
     rlf_hand_tracker *tracker;
     rlf_grid_hand hands[2]; /* as they are, or as they were found */
-    rlf_vec3 palm;          /* of the first, in the frame before; 0 = none */
+    rlf_vec3 body, place;   /* the first body and its place in the hand, in the frame before */
+    rlf_vec3 speed;         /* its velocity then, m/s */
+    bool was_held;
+    double grab_jump, release_jump; /* most so far, metres in a frame */
+    rlf_vec3 palm;                  /* of the first, in the frame before; 0 = none */
     const rlf_snapshot *snapshot;
     double time;
     bool is_put;
@@ -176,6 +179,26 @@ static int32_t found_hands(const rlf_hands *found, rlf_grid_hand *out)
     return count;
 }
 
+/* How far the first body leaps in the frame in which it is taken, against the hand, or is let go,
+ * against its own speed. */
+static void note_jump(others_run *run)
+{
+    const rlf_body_state *b = &run->snapshot->bodies[0];
+    const rlf_pose at = rlf_pose_mul(&run->act.hand[0].T_camera_hand, &run->act.T_hand_body);
+    const rlf_vec3 way = rlf_sub(b->T_world_body.p, run->body);
+    const rlf_vec3 with_hand = rlf_sub(at.p, run->place);
+    const rlf_vec3 alone = rlf_scale(rlf_add(b->velocity, run->speed), 0.5 * FRAME_S);
+    if (b->is_grabbed != run->was_held) {
+        const double leap = rlf_length(rlf_sub(way, b->is_grabbed ? with_hand : alone));
+        double *most = b->is_grabbed ? &run->grab_jump : &run->release_jump;
+        *most = rlf_max(*most, leap);
+    }
+    run->was_held = b->is_grabbed;
+    run->body = b->T_world_body.p;
+    run->place = at.p;
+    run->speed = b->velocity;
+}
+
 static rlf_result step(others_run *run)
 {
     if (run->part == TRUTH_NONE) {
@@ -200,6 +223,9 @@ static rlf_result step(others_run *run)
                                                     : found_hands(found, run->hands);
         rlf_world_advance(run->world, &grid, FRAME_S);
         run->snapshot = rlf_world_get_snapshot(run->world);
+    }
+    if (run->is_put && run->snapshot->body_count > 0) {
+        note_jump(run);
     }
     if (!run->is_put && run->time > PUT_S) {
         put_bodies(run);
@@ -238,8 +264,8 @@ static double off_hand(const others_run *run)
 
 typedef struct grasp_sums {
     int64_t tried[ACT_KINDS], lifted[ACT_KINDS], carried[ACT_KINDS], whole[ACT_KINDS];
-    int64_t jumps;
-    double jump, false_grabs, minutes;
+    double grab_jump, release_jump; /* sums over those that are whole */
+    double false_grabs, minutes;
     int64_t aborted, aborted_grabs;
 } grasp_sums;
 
@@ -264,6 +290,8 @@ static rlf_result grasp(grasp_sums *s, act_kind kind, uint64_t seed, truth_part 
     s->lifted[kind] += is_lifted;
     s->carried[kind] += is_carried;
     s->whole[kind] += is_let_go;
+    s->grab_jump += is_let_go ? run->grab_jump : 0.0;
+    s->release_jump += is_let_go ? run->release_jump : 0.0;
     if (getenv("RLF_GRASPS") != NULL) {
         fprintf(stderr, "%d kind %d seed %d view %d: lifted %d carried %d (%.0f mm) let go %d\n",
                 part, kind, (int)seed, act->view, is_lifted, is_carried, 1e3 * off_hand(run),
@@ -333,6 +361,12 @@ static void report(eval_table *table, const grasp_sums *s, truth_part part)
     for (int k = 0; k < ACT_KINDS && part == TRUTH_NONE; k++) {
         add(table, kinds[k][0], kinds[k][1], eval_percent(s->whole[k], s->tried[k]));
     }
+    if (part == TRUTH_NONE && all[1] > 0) {
+        add(table, "grab_jump_mm", "  leap against the hand as it is taken, mm",
+            1e3 * s->grab_jump / (double)all[1]);
+        add(table, "release_jump_mm", "  leap against its own speed as it is let go, mm",
+            1e3 * s->release_jump / (double)all[1]);
+    }
     add(table, keys[part][1], "  of all: lifted, %", eval_percent(all[2], all[0]));
     add(table, keys[part][2], "  and carried, %", eval_percent(all[3], all[0]));
     add(table, keys[part][3], "  begun and not done, but grabbed, %",
@@ -344,11 +378,11 @@ rlf_result hands_others_run(eval_table *table, int64_t seed)
 {
     rlf_result result = RLF_OK;
     for (int part = 0; part < TRUTH_COUNT && result == RLF_OK; part++) {
-        grasp_sums s = {.jumps = 0};
+        grasp_sums s = {.minutes = 0.0};
         if (getenv("RLF_PARTS") != NULL && !(atoi(getenv("RLF_PARTS")) >> part & 1)) {
             continue;
         }
-        for (int n = 0; n < ACT_KINDS * EACH && result == RLF_OK; n++) {
+        for (int n = 0; n < ACT_KINDS * (part == 0 ? EACH : 1) && result == RLF_OK; n++) {
             const act_kind kind = (act_kind)(n % ACT_KINDS);
             result = grasp(&s, kind, (uint64_t)(seed * 1000 + n), (truth_part)part);
         }

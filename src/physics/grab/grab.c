@@ -14,6 +14,8 @@
 /* A body that was let go is not taken again for so long, s. */
 #define COOL_S 0.3
 #define HAND_POINTS_MIN 12
+/* Without a sure fit for so long pixels tell whether the hand has opened, s. */
+#define UNSURE_S 0.3
 /* Of pixels: frames in a row in which they grip, and in which a side is seen to be gone. */
 #define GRIP_FRAMES 2
 #define OPEN_FRAMES 4
@@ -102,8 +104,12 @@ static void take(rlf_world *world, const grid_query *query, phys_body *body,
     const rlf_vec3 v =
         rlf_add(grab_hand_of(world, a->id)->velocity, grab_hand_of(world, b->id)->velocity);
     phys_grab *grab = begin(world, query, body, rlf_scale(v, 0.5));
-    body->grasp_votes = 0;
     if (grab != NULL) {
+        grab_front front;
+        const rlf_pose pose = phys_body_pose(body);
+        grab_look(query, body, &pose, query->tau, grab_tolerance(query, body->x), &front);
+        grab->weight = front.weight + front.deep;
+        body->grasp_votes = 0;
         grab->kind = reason->kind;
         grab->hands[0] = a->id;
         grab->hands[1] = b != a ? b->id : 0;
@@ -145,7 +151,7 @@ static bool is_front_open(const grid_query *query, phys_grab *grab, const grab_f
     double weight = front->weight + front->deep;
     double tolerance = GRID_NOISE_M + grab_tolerance(query, grab->T_world_hand.p);
     bool has_left = weight < OPEN_SHARE * grab->weight;
-    for (int32_t side = 0; side < 2; side++) {
+    for (int32_t side = 0; side < 2 && grab->kind == GRAB_PIXELS; side++) {
         grab_bin patch = grab_side(front, grab->axis, side == 0 ? -1.0 : 1.0);
         if (patch.weight >= KEEP_PIXELS) {
             grab->ends[side] = rlf_add(grab->seat, patch.point);
@@ -161,7 +167,7 @@ static bool is_front_open(const grid_query *query, phys_grab *grab, const grab_f
 static void settle(phys_grab *grab, const grab_front *front)
 {
     grab_bin a = grab_side(front, grab->axis, -1.0), b = grab_side(front, grab->axis, 1.0);
-    if (rlf_min(a.weight, b.weight) >= KEEP_PIXELS) {
+    if (grab->kind == GRAB_PIXELS && rlf_min(a.weight, b.weight) >= KEEP_PIXELS) {
         grab->seat = rlf_mad(grab->seat, grab->axis, SETTLE * 0.5 * (b.off - a.off));
     }
 }
@@ -190,6 +196,22 @@ static bool has_front_opened(const grid_query *query, const phys_body *body, phy
     return grab->open_frames >= OPEN_FRAMES;
 }
 
+/* The hand that holds it by its pixels is known by now: its bends tell more. */
+static void recognise(const rlf_world *world, const grid_query *query, const phys_body *body,
+                      phys_grab *grab)
+{
+    grab_touches touches;
+    grab_touch_hands(world, query, body, &grab->T_world_hand, 0.0, &touches);
+    for (int32_t k = 0; k < query->grid->hand_count; k++) {
+        if (touches.is_in[k] && grab->kind == GRAB_PIXELS) {
+            grab->kind = GRAB_OPPOSE;
+            grab->hands[0] = query->grid->hands[k].id;
+            grab->open_frames = 0;
+            grab_begin_hold(world, grab);
+        }
+    }
+}
+
 /* Whether the hand holds on. */
 static bool hold(const rlf_world *world, const grid_query *query, phys_body *body, double dt)
 {
@@ -199,8 +221,14 @@ static bool hold(const rlf_world *world, const grid_query *query, phys_body *bod
         return ++grab->lost_frames < LOST_FRAMES;
     }
     grab->lost_frames = 0;
-    const bool has_opened = grab->kind == GRAB_PIXELS ? has_front_opened(query, body, grab)
-                                                      : grab_has_opened(world, grab);
+    if (grab->kind == GRAB_PIXELS) {
+        recognise(world, query, body, grab);
+    }
+    const struct phys_grab_hand *hand = grab_hand_of(world, grab->hands[0]);
+    const bool is_known =
+        grab->kind == GRAB_CARRY || (hand != NULL && world->time - hand->sure < UNSURE_S);
+    const bool has_opened = (grab->kind != GRAB_PIXELS && grab_has_opened(world, grab)) ||
+                            (!is_known && has_front_opened(query, body, grab));
     if (grab->open_frames == 0 && (grab->open_votes & 1u) == 0) {
         note_past(grab);
     }

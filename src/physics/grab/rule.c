@@ -18,7 +18,8 @@
 #define CATCH_SPEED 0.6 /* of what falls on a hand */
 #define PALM_SPEED 0.25 /* m/s by the body: hands slow down to grasp */
 #define OPENED_M 0.018  /* beyond what it was when it took the body */
-#define SETTLE 0.02     /* of the least bends, upward, a frame */
+#define FALL 0.25       /* of the least bends, downward, a frame, */
+#define RISE_M 0.0002   /* and upward: 6 mm/s, where a hand opens by 40 and more */
 #define PALM_M 0.05     /* of two palms, seen at their edges, from what is between them */
 #define APART_M 0.025   /* two palms farther than at the grab */
 #define VOTES 4         /* of the last VOTES_OF sure frames */
@@ -52,9 +53,11 @@ static bool is_opposed(const grab_touch *a, const grab_touch *b)
     return is_other && rlf_dot(a->normal, b->normal) < OPPOSED_COS;
 }
 
+/* By the body, or by the room where the body tips over. */
 static bool comes_slowly(const struct phys_grab_hand *h, const phys_body *body, double most)
 {
-    return rlf_length(rlf_sub(h->velocity, body->v)) < most;
+    const double by_body = rlf_length(rlf_sub(h->velocity, body->v));
+    return rlf_min(by_body, rlf_length(h->velocity)) < most;
 }
 
 static bool rests_on_room(const phys_body *body)
@@ -177,18 +180,17 @@ static void seek_between(const rlf_world *world, const grid_query *query, const 
 grab_reason grab_decide(const rlf_world *world, const grid_query *query, const phys_body *body,
                         const grab_touches *touches)
 {
-    grab_reason reason = {.hands = {-1, -1}};
+    grab_reason reason = {.hands = {carrier(world, query, body, touches), -1}};
+    if (reason.hands[0] >= 0) {
+        reason.kind = GRAB_CARRY; /* and the palm's contact stays on */
+        return reason;
+    }
     seek_opposed(world, query, body, touches, &reason);
     if (reason.kind == GRAB_NONE) {
         seek_hidden(world, query, body, touches, &reason);
     }
     if (reason.kind == GRAB_NONE) {
         seek_between(world, query, body, touches, &reason);
-    }
-    const int32_t under = reason.kind == GRAB_NONE ? carrier(world, query, body, touches) : -1;
-    if (under >= 0) {
-        reason.kind = GRAB_CARRY;
-        reason.hands[0] = under;
     }
     return reason;
 }
@@ -209,13 +211,18 @@ void grab_begin_hold(const rlf_world *world, phys_grab *grab)
     grab->up = rlf_rotate(rlf_quat_conjugate(grab->T_world_hand.q), up);
 }
 
+/* The least so far: a frame's fit that is off counts a quarter, and it rises slowly. */
+static void follow_least(double *least, double now)
+{
+    *least += now < *least ? FALL * (now - *least) : rlf_min(RISE_M, now - *least);
+}
+
 static bool bends_back(phys_grab *grab, const grab_moment *now)
 {
     const bool is_open =
         now->aperture > grab->aperture + OPENED_M || now->curl > grab->curl + OPENED_M;
-    grab->aperture = rlf_min(
-        now->aperture, grab->aperture + SETTLE * rlf_max(now->aperture - grab->aperture, 0.0));
-    grab->curl = rlf_min(now->curl, grab->curl + SETTLE * rlf_max(now->curl - grab->curl, 0.0));
+    follow_least(&grab->aperture, rlf_max(now->aperture, 0.0));
+    follow_least(&grab->curl, now->curl);
     return is_open;
 }
 
@@ -232,8 +239,10 @@ bool grab_has_opened(const rlf_world *world, phys_grab *grab)
         if (a == NULL || b == NULL || a->seen < world->time || b->seen < world->time) {
             return false;
         }
-        is_open = rlf_length(rlf_sub(a->palm, b->palm)) > grab->apart[0] + APART_M &&
-                  rlf_length(rlf_sub(a->core, b->core)) > grab->apart[1] + APART_M;
+        const bool is_sure = a->sure >= world->time && b->sure >= world->time;
+        const double more = is_sure ? APART_M : 2.0 * APART_M;
+        is_open = rlf_length(rlf_sub(a->palm, b->palm)) > grab->apart[0] + more &&
+                  rlf_length(rlf_sub(a->core, b->core)) > grab->apart[1] + more;
     } else if (a == NULL || a->sure < world->time || a->past_count == 0) {
         return false;
     } else {
