@@ -131,11 +131,76 @@ static void what_pushes_does_not_hold(void **state)
     grid_fixture_destroy(&fixture);
 }
 
+/* Thumb and index of a fitted hand, their tips `gap` apart about `place`; the other fingers beside
+ * the index. Fingers point down. */
+static rlf_grid_hand fitted_hand(rlf_vec3 place, double gap)
+{
+    rlf_grid_hand hand = {.id = 1, .is_sure = true, .facing = {0, 1, 0}};
+    hand.palm = rlf_add(place, rlf_vec3_make(0, -0.09, 0));
+    for (int32_t k = 0; k < RLF_GRID_HAND_CONES; k++) {
+        const int32_t digit = (k - 6) / 3, bone = (k - 6) % 3;
+        const double side = digit == 0 ? -0.5 : 0.5, deep = digit > 1 ? 0.02 * (digit - 1) : 0.0;
+        const double x = side * (gap + 0.018);
+        hand.cones[k] = (rlf_round_cone){hand.palm, hand.palm, 0.015, 0.015};
+        if (k >= 6) {
+            hand.cones[k] = (rlf_round_cone){
+                rlf_add(place, rlf_vec3_make(x, -0.09 + 0.03 * bone, deep)),
+                rlf_add(place, rlf_vec3_make(x, -0.06 + 0.03 * bone, deep)), 0.009, 0.009};
+        }
+    }
+    return hand;
+}
+
+/* One finger alone is seen; the fit knows the thumb. */
+static int32_t frames_held(bool closes, bool *is_let_go)
+{
+    const rlf_shape cube = {.type = RLF_SHAPE_BOX, .size = {0.05, 0.05, 0.05}};
+    grid_fixture *fixture = grid_fixture_create();
+    grid_plane room[2] = {grid_floor(TABLE), grid_wall(2)};
+    grid_fixture_set_room(fixture, room, 2);
+    rlf_vec3 start = {-0.1, TABLE - 0.025, 1.0};
+    rlf_world *world = make_world(&cube, start, NULL);
+    int32_t held = 0;
+    for (int frame = 0; frame < 100; frame++) {
+        const double t = frame * FRAME;
+        const bool is_up = t > 0.9 && t < 1.5, is_aside = t > 1.6 && t < 2.0;
+        const double open = 1.0 - ramp(t, 0.3, 0.6) + ramp(t, 2.2, 2.4);
+        const rlf_vec3 way = {0.1 * ramp(t, 1.6, 2.0), -0.15 * ramp(t, 0.9, 1.5), 0};
+        grid_hand hand = {.place = rlf_add(start, way), .along = {0, 1, 0}, .across = {1, 0, 0}};
+        hand.is_one = true;
+        hand.velocity = rlf_vec3_make(is_aside ? 0.25 : 0.0, is_up ? -0.25 : 0.0, 0);
+        hand.gap = 0.048 + (closes ? 0.06 * open : 0.0);
+        hand.place = closes || t > 0.5 ? hand.place : rlf_mad(hand.place, hand.across, t - 0.5);
+        const rlf_grid_hand fitted = fitted_hand(hand.place, hand.gap);
+        grid_hand_see(fixture, &hand, frame);
+        fixture->grid.hands = &fitted;
+        fixture->grid.hand_count = 1;
+        rlf_world_advance(world, &fixture->grid, FRAME);
+        held += state_of(world)->is_grabbed;
+    }
+    *is_let_go = !state_of(world)->is_grabbed;
+    rlf_world_destroy(&world);
+    grid_fixture_destroy(&fixture);
+    return held;
+}
+
+static void a_fitted_hand_holds_where_it_closes(void **state)
+{
+    (void)state;
+    bool is_let_go = false;
+    const int32_t held = frames_held(true, &is_let_go);
+    print_message("FITTED closes: held %d frames\n", (int)held);
+    assert_true(held > 45 && held < 65); /* from 0.6 to 2.3 s */
+    assert_true(is_let_go);
+    assert_int_equal(frames_held(false, &is_let_go), 0); /* closed before: it only pushes */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hands_lift_carry_and_let_go),
         cmocka_unit_test(what_pushes_does_not_hold),
+        cmocka_unit_test(a_fitted_hand_holds_where_it_closes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,6 +18,8 @@
 #define AIR_M 0.03
 #define AIR_FRAMES 10
 #define GRABBED_FRAMES 3
+#define BACK_S 2.0 /* after so long what was pushed by more than this stands again */
+#define MOVED_M 0.03
 
 typedef enum truth_part {
     TRUTH_NONE = 0,
@@ -264,8 +266,8 @@ static double off_hand(const others_run *run)
 
 typedef struct grasp_sums {
     int64_t tried[ACT_KINDS], lifted[ACT_KINDS], carried[ACT_KINDS], whole[ACT_KINDS];
-    double grab_jump, release_jump; /* sums over those that are whole */
-    double false_grabs, minutes;
+    double grab_jump, release_jump;     /* sums over those that are whole */
+    double false_grabs, minutes, moved; /* moved: bodies, each time */
     int64_t aborted, aborted_grabs;
 } grasp_sums;
 
@@ -301,6 +303,22 @@ static rlf_result grasp(grasp_sums *s, act_kind kind, uint64_t seed, truth_part 
     return result;
 }
 
+/* Bodies that were pushed away or are held come back for the next visit; how many there were. */
+static int32_t put_back(others_run *run)
+{
+    const rlf_vec3 still = {0, 0, 0};
+    int32_t moved = 0;
+    for (int32_t k = 0; k < run->snapshot->body_count; k++) {
+        const rlf_body_state *b = &run->snapshot->bodies[k];
+        const rlf_pose at = rlf_pose_mul(&run->act.T_camera_stage, &run->act.T_stage_body[k]);
+        if (rlf_length(rlf_sub(at.p, b->T_world_body.p)) > MOVED_M) {
+            (void)rlf_world_set_body(run->world, b->id, &at, still, still);
+            moved++;
+        }
+    }
+    return moved;
+}
+
 /* How often something is held that nobody grasps. */
 static rlf_result count_false(grasp_sums *s, act_kind kind, bool is_aborted, uint64_t seed,
                               truth_part part)
@@ -311,8 +329,13 @@ static rlf_result count_false(grasp_sums *s, act_kind kind, bool is_aborted, uin
     }
     int32_t held[ACT_BODIES_MAX] = {0}, in_air[ACT_BODIES_MAX] = {0}, grabs = 0;
     rlf_result result = RLF_OK;
+    double back = BACK_S;
     while (result == RLF_OK && run->time < run->act.end) {
         result = step(run);
+        if (result == RLF_OK && !is_aborted && run->is_put && run->time > back) {
+            s->moved += put_back(run);
+            back += BACK_S;
+        }
         for (int32_t k = 0; run->snapshot != NULL && k < run->snapshot->body_count && run->is_put;
              k++) {
             const rlf_body_state *b = &run->snapshot->bodies[k];
@@ -371,6 +394,9 @@ static void report(eval_table *table, const grasp_sums *s, truth_part part)
     add(table, keys[part][2], "  and carried, %", eval_percent(all[3], all[0]));
     add(table, keys[part][3], "  begun and not done, but grabbed, %",
         eval_percent(s->aborted_grabs, s->aborted));
+    if (part == TRUTH_NONE) {
+        add(table, "moved", "  pushed a minute", s->moved / s->minutes);
+    }
     add(table, keys[part][4], "  false grabs a minute among bodies", s->false_grabs / s->minutes);
 }
 
