@@ -88,7 +88,8 @@ typedef struct rlf_pipeline_def {
     rlf_compositor_def compositor; /* of the soft renderer */
     const rlf_scene *scene;        /* copied; NULL = no bodies */
     bool enable_render;            /* default true; false: no picture is made */
-    bool enable_hands;             /* default false; true where the scene binds their events */
+    bool enable_hands;             /* default false; true where the scene binds their events, and
+                                      where the world may grab */
     rlf_pose T_world_camera;       /* mount pose; default identity */
     rlf_camera_mode camera;        /* default fixed; what moves needs the live profile */
     rlf_pose_origin poses;         /* of a moving camera; default tracked */

@@ -106,8 +106,8 @@ typedef struct rlf_world_def {
     rlf_aabb bounds;           /* bodies whose centre leaves it are removed from the simulation
                                   (Algorithm 1: "while x(t) is within the scene"); default +-20 m */
     rlf_border border;         /* live: what the background is beyond the view; default extend */
-    bool enable_grab; /* live: bodies between fingers, or hands, that close on them are held
-                         until these open; default false */
+    bool enable_grab; /* live: bodies on which the grid's hands close, or that its pixels hold
+                         between two sides, are held until these open; default false */
     rlf_pool *pool;   /* borrowed; NULL = one thread */
 } rlf_world_def;
 

@@ -7,6 +7,7 @@
 #define GRASP_MASK 0xfu
 /* The hand may be lost for so many frames: noise, or something passes before it. */
 #define LOST_FRAMES 3
+#define KNOWN_FRAMES 9 /* the same where its fit is sure: 0.3 s */
 /* Of the joint, rad/s: errors fade within two frames, without a swing. */
 #define JOINT_OMEGA 50.0
 /* A hand does not push a body for so long after it closed on it, s. */
@@ -23,7 +24,7 @@
 #define APART_SPEED 0.15
 #define PAST_SPEED 0.3
 /* A body that passes the sides faster is not held by them yet, m/s. */
-#define CATCH_SPEED 0.6
+#define CATCH_SPEED 0.25
 /* Of the pixels that touched, fewer than this share still do: the hand is open. */
 #define OPEN_SHARE 0.35
 /* Of what is seen, so much is believed in one frame: a share. */
@@ -212,19 +213,35 @@ static void recognise(const rlf_world *world, const grid_query *query, const phy
     }
 }
 
+/* The look of the hand is lost: its fit carries on for a while, and shows a new look. */
+static bool go_on(const rlf_world *world, const grid_query *query, phys_body *body,
+                  const struct phys_grab_hand *hand, double dt)
+{
+    phys_grab *grab = body->grab;
+    const bool is_known = hand != NULL && world->time - hand->sure < UNSURE_S;
+    const rlf_vec3 v = is_known ? hand->velocity : grab->v;
+    grab->T_world_hand.p = rlf_mad(grab->T_world_hand.p, v, dt);
+    if (++grab->lost_frames >= LOST_FRAMES && is_known && grab->lost_frames < KNOWN_FRAMES) {
+        grab->v = v;
+        grab->w = rlf_vec3_make(0, 0, 0);
+        grab_learn_hand(query, body, grab);
+        return grab->point_count >= HAND_POINTS_MIN;
+    }
+    return grab->lost_frames < LOST_FRAMES;
+}
+
 /* Whether the hand holds on. */
 static bool hold(const rlf_world *world, const grid_query *query, phys_body *body, double dt)
 {
     phys_grab *grab = body->grab;
+    const struct phys_grab_hand *hand = grab_hand_of(world, grab->hands[0]);
     if (!grab_follow_hand(query, grab, dt)) {
-        grab->T_world_hand.p = rlf_mad(grab->T_world_hand.p, grab->v, dt);
-        return ++grab->lost_frames < LOST_FRAMES;
+        return go_on(world, query, body, hand, dt);
     }
     grab->lost_frames = 0;
     if (grab->kind == GRAB_PIXELS) {
         recognise(world, query, body, grab);
     }
-    const struct phys_grab_hand *hand = grab_hand_of(world, grab->hands[0]);
     const bool is_known =
         grab->kind == GRAB_CARRY || (hand != NULL && world->time - hand->sure < UNSURE_S);
     const bool has_opened = (grab->kind != GRAB_PIXELS && grab_has_opened(world, grab)) ||

@@ -107,6 +107,8 @@ typedef struct grab_touch {
 } grab_touch;
 
 #define GRAB_PALM 5
+#define GRAB_CLOSED_M 0.008 /* by which thumb and fingers, or two palms, came nearer ... */
+#define GRAB_WINDOW_S 0.8   /* ... within this */
 
 typedef struct grab_touches {
     grab_touch touch[GRAB_TOUCHES_MAX];
@@ -151,6 +153,8 @@ grab_bin grab_side(const grab_front *front, rlf_vec3 axis, double sign);
 void grab_note_hands(rlf_world *world, const struct grid_query *query);
 /* NULL when it is not remembered. */
 struct phys_grab_hand *grab_hand_of(const rlf_world *world, int32_t id);
+/* Whether it has come from wider to here and does not open. */
+bool grab_hand_closes(const struct phys_grab_hand *hand);
 /* Whether what touches takes the body. */
 grab_reason grab_decide(const rlf_world *world, const struct grid_query *query,
                         const phys_body *body, const grab_touches *touches);

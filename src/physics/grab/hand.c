@@ -1,6 +1,10 @@
 /* How hands were bent and where they went, in the last second: what a grasp is told by. */
 #include "physics/grab/grab.h"
 
+#define CURLED_M 0.006  /* or fingers' tips their roots */
+#define CLOSED_FRAMES 3 /* frames that were so much wider */
+#define OPENING_M 0.006 /* since the tightest of the last frames: it opens */
+#define LAST_FRAMES 4
 #define VELOCITY_S 0.15 /* over which a palm's is told: one fit trembles */
 
 rlf_vec3 grab_tip(const rlf_grid_hand *h, int32_t digit)
@@ -82,4 +86,25 @@ void grab_note_hands(rlf_world *world, const grid_query *query)
         hand->past_count += hand->past_count < GRAB_MOMENTS;
         note_velocity(hand);
     }
+}
+
+/* Whether it has come from wider to here and does not open. */
+bool grab_hand_closes(const struct phys_grab_hand *h)
+{
+    int32_t wider = 0;
+    bool opens = false;
+    const grab_moment *now = &h->past[0];
+    for (int32_t k = 1; k < h->past_count; k++) {
+        const grab_moment *m = &h->past[k];
+        if (!m->is_sure) {
+            continue;
+        }
+        if (now->time - m->time > GRAB_WINDOW_S) {
+            break;
+        }
+        wider += m->aperture > now->aperture + GRAB_CLOSED_M || m->curl > now->curl + CURLED_M;
+        opens = opens || (k < LAST_FRAMES && (m->aperture < now->aperture - OPENING_M ||
+                                              m->curl < now->curl - OPENING_M));
+    }
+    return wider >= CLOSED_FRAMES && !opens;
 }

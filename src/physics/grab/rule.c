@@ -9,42 +9,15 @@
 #define FACING_COS 0.5      /* a palm that carries looks up within 60 degrees */
 #define TILT_COS 0.64       /* ... and lets slide beyond 50 */
 #define SUPPORTS_MIN 2      /* cones beneath */
-#define CLOSED_M 0.008      /* by which thumb and fingers came nearer, */
-#define CURLED_M 0.006      /* or fingers' tips their roots */
-#define CLOSED_FRAMES 3     /* frames that were so much wider */
-#define OPENING_M 0.006     /* since the tightest of the last frames: it opens */
-#define LAST_FRAMES 4
-#define WINDOW_S 0.8
-#define CATCH_SPEED 0.6 /* of what falls on a hand */
-#define PALM_SPEED 0.25 /* m/s by the body: hands slow down to grasp */
-#define OPENED_M 0.018  /* beyond what it was when it took the body */
-#define FALL 0.25       /* of the least bends, downward, a frame, */
-#define RISE_M 0.0002   /* and upward: 6 mm/s, where a hand opens by 40 and more */
-#define PALM_M 0.05     /* of two palms, seen at their edges, from what is between them */
-#define APART_M 0.025   /* two palms farther than at the grab */
-#define VOTES 4         /* of the last VOTES_OF sure frames */
+#define CATCH_SPEED 0.6     /* of what falls on a hand */
+#define PALM_SPEED 0.25     /* m/s by the body: hands slow down to grasp */
+#define OPENED_M 0.024      /* beyond what it was at the grab: fits are 15 mm off in the mean */
+#define FALL 0.25           /* of the least bends, downward, a frame, */
+#define RISE_M 0.0002       /* and upward: 6 mm/s, where a hand opens by 40 and more */
+#define PALM_M 0.05         /* of two palms, seen at their edges, from what is between them */
+#define APART_M 0.025       /* two palms farther than at the grab */
+#define VOTES 4             /* of the last VOTES_OF sure frames */
 #define VOTES_OF 6
-
-/* Whether it has come from wider to here and does not open. */
-static bool closes(const struct phys_grab_hand *h)
-{
-    int32_t wider = 0;
-    bool opens = false;
-    const grab_moment *now = &h->past[0];
-    for (int32_t k = 1; k < h->past_count; k++) {
-        const grab_moment *m = &h->past[k];
-        if (!m->is_sure) {
-            continue;
-        }
-        if (now->time - m->time > WINDOW_S) {
-            break;
-        }
-        wider += m->aperture > now->aperture + CLOSED_M || m->curl > now->curl + CURLED_M;
-        opens = opens || (k < LAST_FRAMES && (m->aperture < now->aperture - OPENING_M ||
-                                              m->curl < now->curl - OPENING_M));
-    }
-    return wider >= CLOSED_FRAMES && !opens;
-}
 
 static bool is_opposed(const grab_touch *a, const grab_touch *b)
 {
@@ -108,7 +81,8 @@ static void seek_hidden(const rlf_world *world, const grid_query *query, const p
         const uint32_t g = groups[k],
                        fingers = (g >> 1 & 1u) + (g >> 2 & 1u) + (g >> 3 & 1u) + (g >> 4 & 1u);
         const bool is_held = fingers >= 2 || (fingers == 1 && (g & 1u) != 0);
-        if (is_held && touches->is_in[k] && closes(h) && comes_slowly(h, body, PALM_SPEED)) {
+        if (is_held && touches->is_in[k] && grab_hand_closes(h) &&
+            comes_slowly(h, body, PALM_SPEED)) {
             reason->kind = GRAB_OPPOSE;
             reason->hands[0] = k;
             return;
@@ -123,7 +97,7 @@ static void seek_opposed(const rlf_world *world, const grid_query *query, const 
     for (int32_t i = 0; i < touches->count; i++) {
         const grab_touch *a = &touches->touch[i];
         const struct phys_grab_hand *h = grab_hand_of(world, query->grid->hands[a->hand].id);
-        const bool is_closing = h != NULL && touches->is_in[a->hand] && closes(h);
+        const bool is_closing = h != NULL && touches->is_in[a->hand] && grab_hand_closes(h);
         reason->is_closing = reason->is_closing || is_closing;
         for (int32_t k = 0; k < touches->count && is_closing; k++) {
             if (is_opposed(a, &touches->touch[k]) && comes_slowly(h, body, PALM_SPEED)) {
@@ -142,9 +116,9 @@ static bool come_together(const struct phys_grab_hand *a, const struct phys_grab
     bool has_come = false;
     for (int32_t i = 1, k = 1; i < a->past_count && k < b->past_count;) {
         const double ti = a->past[i].time, tk = b->past[k].time;
-        if (ti == tk && a->past[0].time - ti < WINDOW_S) {
+        if (ti == tk && a->past[0].time - ti < GRAB_WINDOW_S) {
             const double then = rlf_length(rlf_sub(a->past[i].palm, b->past[k].palm));
-            has_come = has_come || then > now + CLOSED_M;
+            has_come = has_come || then > now + GRAB_CLOSED_M;
         }
         i += ti >= tk;
         k += tk >= ti;
@@ -185,12 +159,12 @@ grab_reason grab_decide(const rlf_world *world, const grid_query *query, const p
         reason.kind = GRAB_CARRY; /* and the palm's contact stays on */
         return reason;
     }
-    seek_opposed(world, query, body, touches, &reason);
+    seek_between(world, query, body, touches, &reason);
     if (reason.kind == GRAB_NONE) {
-        seek_hidden(world, query, body, touches, &reason);
+        seek_opposed(world, query, body, touches, &reason);
     }
     if (reason.kind == GRAB_NONE) {
-        seek_between(world, query, body, touches, &reason);
+        seek_hidden(world, query, body, touches, &reason);
     }
     return reason;
 }

@@ -1,11 +1,12 @@
 /* What of known hands touches a body: round cones, their hidden sides too. */
 #include "physics/grab/grab.h"
 
-#define SAMPLES 5      /* along a cone */
-#define SURE_M 0.008   /* a fit that is right is so far off */
-#define REACH_M 0.22   /* of a hand, from its palm */
-#define INSIDE_M 0.015 /* from the body: the place of a grasp is in it */
-#define HOLLOW_M 0.035 /* a fist's middle before its palm */
+#define SAMPLES 5       /* along a cone */
+#define SURE_M 0.008    /* a fit that is right is so far off */
+#define CLOSING_M 0.015 /* and its hidden digits so far: of a hand that closes here */
+#define REACH_M 0.22    /* of a hand, from its palm */
+#define INSIDE_M 0.015  /* from the body: the place of a grasp is in it */
+#define HOLLOW_M 0.035  /* a fist's middle before its palm */
 
 /* The least distance of a cone to the shape. */
 static double nearest(const phys_shape *shape, const rlf_round_cone *cone, rlf_vec3 *point,
@@ -47,7 +48,8 @@ static bool is_grasped_at(const phys_shape *shape, const rlf_grid_hand *h,
 }
 
 static void add_cones(const grid_query *query, int32_t hand, const phys_shape *shape,
-                      const rlf_pose *T_body_grid, rlf_vec3 shift, grab_touches *out)
+                      const rlf_pose *T_body_grid, rlf_vec3 shift, double tolerance,
+                      grab_touches *out)
 {
     const rlf_grid_hand *h = &query->grid->hands[hand];
     for (int32_t k = 0; k < RLF_GRID_HAND_CONES && out->count < GRAB_TOUCHES_MAX; k++) {
@@ -55,7 +57,7 @@ static void add_cones(const grid_query *query, int32_t hand, const phys_shape *s
         grab_touch touch = {.hand = hand, .group = k < 6 ? GRAB_PALM : (k - 6) / 3};
         cone.a = rlf_transform(T_body_grid, rlf_add(cone.a, shift));
         cone.b = rlf_transform(T_body_grid, rlf_add(cone.b, shift));
-        if (nearest(shape, &cone, &touch.point, &touch.normal) < SURE_M) {
+        if (nearest(shape, &cone, &touch.point, &touch.normal) < tolerance) {
             out->touch[out->count++] = touch;
         }
     }
@@ -95,7 +97,9 @@ void grab_touch_hands(const rlf_world *world, const grid_query *query, const phy
             continue;
         }
         out->is_in[k] = is_grasped_at(&body->shape, h, &T_body_grid, shift);
-        add_cones(query, k, &body->shape, &T_body_grid, shift, out);
+        const bool is_closing = past != NULL && out->is_in[k] && grab_hand_closes(past);
+        add_cones(query, k, &body->shape, &T_body_grid, shift, is_closing ? CLOSING_M : SURE_M,
+                  out);
         out->is_judged = out->is_judged || out->is_in[k] || out->count > 0;
     }
 }
