@@ -447,15 +447,17 @@ void another_act_draw(another_act *act, act_kind kind, bool is_aborted, eval_ran
 
 void another_act_room(const another_act *act, another_view *view)
 {
-    another_plane planes[3] = {{vec(0, 1, 0), 0.0, vec(0, 0, 0), TABLE_M},
+    another_plane planes[5] = {{vec(0, 1, 0), 0.0, vec(0, 0, 0), TABLE_M},
                                {vec(0, 1, 0), 0.0, vec(0, -0.75, 0), 6.0},
-                               {vec(0, 0, -1), 0.0, vec(0, 0, 1.6), 6.0}};
-    for (int k = 0; k < 3; k++) {
+                               {vec(0, 0, -1), 0.0, vec(0, 0, 1.6), 6.0},
+                               {vec(1, 0, 0), 0.0, vec(-1.8, 0, 0), 6.0},
+                               {vec(-1, 0, 0), 0.0, vec(1.8, 0, 0), 6.0}};
+    for (int k = 0; k < 5; k++) {
         planes[k].normal = rlf_rotate(act->T_camera_stage.q, planes[k].normal);
         planes[k].middle = rlf_transform(&act->T_camera_stage, planes[k].middle);
         planes[k].offset = rlf_dot(planes[k].normal, planes[k].middle);
     }
-    another_view_room(view, planes, 3, rlf_rotate(act->T_camera_stage.q, vec(0, 1, 0)));
+    another_view_room(view, planes, 5, rlf_rotate(act->T_camera_stage.q, vec(0, 1, 0)));
 }
 
 static double smooth(double t)

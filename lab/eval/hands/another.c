@@ -164,7 +164,7 @@ static void put(another_view *v, rlf_vec3 a, rlf_vec3 b, rlf_vec3 side, double h
                 const double ta = meet(o, d, half, true), tb = meet(end, d, half, true);
                 t = ta > 0.0 && (tb <= 0.0 || ta < tb) ? ta : tb;
             }
-            if (t > 0.05 && (float)t < v->clean[i]) {
+            if (t > 0.05 && (v->clean[i] <= 0.0f || (float)t < v->clean[i])) {
                 v->clean[i] = (float)t;
                 v->foreground[i] = 1;
             }
