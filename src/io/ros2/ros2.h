@@ -11,18 +11,17 @@
 #include <stdint.h>
 
 #define IO_ROS2_TOPIC_MAX 256 /* bytes of a topic's name with the ending zero, as DDS has it */
-* /
 #define IO_ROS2_TYPE_MAX 96
 /* Larger messages are not taken: a picture of 4096 x 4096 pixels of 4 bytes. */
 #define IO_ROS2_MESSAGE_MAX ((size_t)64 << 20)
 
-    /* ---- which network, and how it is used ---- */
+/* ---- which network, and how it is used ---- */
 
-    typedef enum io_ros2_profile {
-        IO_ROS2_LOCAL = 0, /* lo alone: nothing leaves the machine */
-        IO_ROS2_LAN = 1,   /* messages that fit an Ethernet frame; pictures are packed */
-        IO_ROS2_OWN = 2    /* a file of Cyclone DDS's settings */
-    } io_ros2_profile;
+typedef enum io_ros2_profile {
+    IO_ROS2_LOCAL = 0, /* lo alone: nothing leaves the machine */
+    IO_ROS2_LAN = 1,   /* messages that fit an Ethernet frame; pictures are packed */
+    IO_ROS2_OWN = 2    /* a file of Cyclone DDS's settings */
+} io_ros2_profile;
 
 typedef struct io_ros2_place {
     uint32_t domain; /* 0..232 */
