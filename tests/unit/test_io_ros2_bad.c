@@ -92,8 +92,8 @@ static void open_bench(bench *b, const char *name)
     assert_int_equal(
         io_ros2_writer_open(b->node, topic, "sensor_msgs/msg/CameraInfo", false, &b->info), RLF_OK);
     snprintf(topic, sizeof(topic), "/%s/depth/image_raw", name);
-    assert_int_equal(
-        io_ros2_writer_open(b->node, topic, "sensor_msgs/msg/Image", false, &b->depth), RLF_OK);
+    assert_int_equal(io_ros2_writer_open(b->node, topic, "sensor_msgs/msg/Image", false, &b->depth),
+                     RLF_OK);
     assert_int_equal(
         io_ros2_writer_open(b->other_node, topic, "sensor_msgs/msg/Image", false, &b->other),
         RLF_OK);

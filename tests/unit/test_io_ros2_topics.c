@@ -182,8 +182,8 @@ static void test_names(void **state)
     assert_string_equal(out, "sensor_msgs::msg::dds_::Image_");
     assert_true(io_ros2_type_from_dds("sensor_msgs::msg::dds_::Image_", out, sizeof(out)));
     assert_string_equal(out, IMAGE);
-    static const char *const strangers[] = {"", "Image", "a::msg::dds_::", "a::msg::dds_::_",
-                                            "a::srv::dds_::B_", "a::msg::dds_::B"};
+    static const char *const strangers[] = {
+        "", "Image", "a::msg::dds_::", "a::msg::dds_::_", "a::srv::dds_::B_", "a::msg::dds_::B"};
     for (size_t i = 0; i < sizeof(strangers) / sizeof(strangers[0]); i++) {
         assert_false(io_ros2_type_from_dds(strangers[i], out, sizeof(out)));
     }
@@ -192,8 +192,10 @@ static void test_names(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_drivers),       cmocka_unit_test(test_cameras_are_told),
-        cmocka_unit_test(test_named_topics_alone), cmocka_unit_test(test_below),
+        cmocka_unit_test(test_drivers),
+        cmocka_unit_test(test_cameras_are_told),
+        cmocka_unit_test(test_named_topics_alone),
+        cmocka_unit_test(test_below),
         cmocka_unit_test(test_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
