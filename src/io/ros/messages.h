@@ -145,6 +145,8 @@ bool io_ros_read_float(io_cdr_reader r, double *out);
 bool io_ros_read_value(io_cdr_reader r, const char *key, char *out, size_t capacity);
 bool io_ros_read_pose(io_cdr_reader r, io_ros_header *header, rlf_pose *out);
 
+/* What most messages begin with. */
+void io_ros_write_header(io_cdr_writer *w, const io_ros_header *header);
 /* A message up to its bytes; they follow, then io_cdr_end_bytes with what this returns. */
 size_t io_ros_begin_image(io_cdr_writer *w, const io_ros_image *image);
 size_t io_ros_begin_compressed(io_cdr_writer *w, const io_ros_image *image);

@@ -1,12 +1,35 @@
 /* Frames as a camera's topics. */
 #include "io/ros2/camera_out.h"
 
+#include "io/source/address.h"
+
 #include <stdio.h>
 #include <string.h>
 
 #define MM_PER_M 1000.0
 /* A frame that is due so much earlier or later is another take. */
 #define CLOCK_STEP_NS INT64_C(500000000)
+
+rlf_result io_ros2_target_read(const char *address, io_ros2_target *out)
+{
+    io_address parts;
+    rlf_result result = io_address_parse(address, &parts);
+    if (result != RLF_OK) {
+        return result;
+    }
+    const char *domain = io_address_take(&parts, "domain");
+    const char *profile = io_address_take(&parts, "profile");
+    const char *name = parts.place;
+    if (parts.key_count > 0 || name[0] != '/' || name[1] == '\0' ||
+        strlen(name) >= sizeof(out->name)) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "%s: give a name and no other key than domain and profile, as in "
+                        "ros2:/camera?profile=lan",
+                        address);
+    }
+    memcpy(out->name, name, strlen(name) + 1);
+    return io_ros2_place_read(address, domain, profile, &out->place);
+}
 
 bool io_ros2_name(const char *name, const char *part, char out[IO_ROS2_TOPIC_MAX])
 {

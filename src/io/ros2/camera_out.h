@@ -27,6 +27,14 @@ void io_ros2_camera_close(io_ros2_camera *camera);
 /* A frame of that rig; offset_ns makes 1970's of its times. */
 rlf_result io_ros2_camera_send(io_ros2_camera *camera, const rlf_frame *frame, int64_t offset_ns);
 
+/* Where a camera or a run is published: "ros2:/camera?domain=1&profile=lan". */
+typedef struct io_ros2_target {
+    io_ros2_place place;
+    char name[IO_ROS2_TOPIC_MAX]; /* "/camera" */
+} io_ros2_target;
+
+rlf_result io_ros2_target_read(const char *address, io_ros2_target *out);
+
 /* "NAME/PART"; false when it is too long. */
 bool io_ros2_name(const char *name, const char *part, char out[IO_ROS2_TOPIC_MAX]);
 /* "/front/camera" is "front_camera" in names of frames. */

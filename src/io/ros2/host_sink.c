@@ -2,7 +2,6 @@
 #include "io/ros2/camera_out.h"
 
 #include "io/ros2/gather.h"
-#include "io/source/address.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -42,23 +41,10 @@ static rlf_result host_close(void *self, rlf_recording_status *status)
 static rlf_result open_all(host *h, const char *path, const rlf_source_info *info,
                            const rlf_recording_def *def)
 {
-    io_address parts;
-    io_ros2_place place;
-    rlf_result result = io_address_parse(path, &parts);
-    if (result != RLF_OK) {
-        return result;
-    }
-    const char *domain = io_address_take(&parts, "domain");
-    const char *profile = io_address_take(&parts, "profile");
-    if (parts.key_count > 0 || parts.place[0] != '/' || parts.place[1] == '\0') {
-        return rlf_fail(RLF_ERROR_INVALID,
-                        "%s: give the camera's name and no other key than domain and profile, as "
-                        "in ros2:/camera?profile=lan",
-                        path);
-    }
-    result = io_ros2_place_read(path, domain, profile, &place);
-    result = result == RLF_OK ? io_ros2_node_open(path, &place, &h->node) : result;
-    return result == RLF_OK ? io_ros2_camera_open(h->node, parts.place, &info->rig, def, &h->camera)
+    io_ros2_target target;
+    rlf_result result = io_ros2_target_read(path, &target);
+    result = result == RLF_OK ? io_ros2_node_open(path, &target.place, &h->node) : result;
+    return result == RLF_OK ? io_ros2_camera_open(h->node, target.name, &info->rig, def, &h->camera)
                             : result;
 }
 
