@@ -58,10 +58,14 @@ rlf_result io_ros2_place_read(const char *source, const char *domain, const char
  * no message may be cut into IP fragments, whose remains block the receiver for 30 s. */
 #define SIZES(message, fragment)                                                                   \
     "<MaxMessageSize>" message "</MaxMessageSize><FragmentSize>" fragment "</FragmentSize>"
-/* A picture and a half may wait for who reads slowly; more than 64 MB is no message. */
+/* Two large pictures may wait for who reads slowly, but none keeps the program from ending; more
+ * than 64 MB is no message. */
+#define WAITING                                                                                    \
+    "<Watermarks><WhcHigh>16MB</WhcHigh><WhcHighInit>16MB</WhcHighInit></Watermarks>"              \
+    "<WriterLingerDuration>50ms</WriterLingerDuration>"
 #define INTERNAL                                                                                   \
-    "<Internal><SocketReceiveBufferSize max=\"8MB\"/><MaxSampleSize>64MB</MaxSampleSize>"          \
-    "<Watermarks><WhcHigh>16MB</WhcHigh><WhcHighInit>16MB</WhcHighInit></Watermarks></Internal>"
+    "<Internal><SocketReceiveBufferSize max=\"8MB\"/><MaxSampleSize>64MB</MaxSampleSize>" WAITING  \
+    "</Internal>"
 #define BEGIN "<CycloneDDS><Domain>"
 #define END "</Domain></CycloneDDS>"
 /* A camera that was pulled out is gone after so long. */
