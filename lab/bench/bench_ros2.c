@@ -128,7 +128,7 @@ static int by_size(const void *a, const void *b)
 
 typedef struct result {
     double ages_ms[TIMES_MAX], longest_gap_ms;
-    int got, first, last, without_color;
+    int got, last, lost, sent, without_color;
 } result;
 
 static void read_frames(rlf_opened *source, const options *o, result *r)
@@ -144,8 +144,11 @@ static void read_frames(rlf_opened *source, const options *o, result *r)
         const double gap_ms = 1e-6 * (double)(now_ns - before_ns);
         before_ns = now_ns;
         r->longest_gap_ms = gap_ms > r->longest_gap_ms ? gap_ms : r->longest_gap_ms;
-        r->last = frame.depth_u16[0];
-        r->first = r->got == 0 ? r->last : r->first;
+        const int number = frame.depth_u16[0];
+        const int steps = r->got > 0 && number > r->last ? number - r->last : 1; /* or a new host */
+        r->lost += steps - 1;
+        r->sent += steps;
+        r->last = number;
         r->without_color += frame.color.data == NULL && o->color_width > 0 ? 1 : 0;
         r->ages_ms[r->got++] = 1e-6 * (double)(wall_ns() - frame.time_ns);
     }
@@ -174,10 +177,9 @@ static int run_reader(const options *o)
         return 1;
     }
     qsort(r.ages_ms, (size_t)r.got, sizeof(r.ages_ms[0]), by_size);
-    const int sent = r.last - r.first + 1;
     printf("%s, colour %dx%d: %d of %d lost, %d without colour, age p50 %.1f p99 %.1f ms, longest "
            "gap %.0f ms\n",
-           o->profile, o->color_width, o->color_height, sent - r.got, sent, r.without_color,
+           o->profile, o->color_width, o->color_height, r.lost, r.sent, r.without_color,
            r.ages_ms[r.got / 2], r.ages_ms[r.got * 99 / 100], r.longest_gap_ms);
     return 0;
 }

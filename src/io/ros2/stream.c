@@ -7,23 +7,36 @@
  * five pictures a second or more. */
 #define SILENT_NS INT64_C(300000000)
 
-void io_ros2_stream_refuse(io_ros2_stream *s, const char *line)
+/* Once. */
+static void tell(io_ros2_stream *s, const char *line)
 {
-    ++*s->damaged;
     if (!s->is_told) {
         s->is_told = true;
         rlf_log(RLF_LOG_WARNING, "%s: a message of %s is refused: %s", s->source, s->topic, line);
     }
 }
 
-/* Two on one topic would give two rooms in turn. */
+void io_ros2_stream_refuse(io_ros2_stream *s, const char *line)
+{
+    ++*s->damaged;
+    tell(s, line);
+}
+
+/* Two on one topic would give two rooms in turn. Of one that was killed and started again the first
+ * is silent: nothing is told of it. */
 static bool is_of_publisher(io_ros2_stream *s, const io_ros2_message *m)
 {
     const int64_t now_ns = rlf_clock_ns();
-    if (s->writer != 0 && m->writer != s->writer && now_ns - s->heard_ns < SILENT_NS) {
-        io_ros2_stream_refuse(s, "a second publisher sends to this topic, too: stop one");
+    const bool is_other = s->writer != 0 && m->writer != s->writer;
+    if (is_other && now_ns - s->heard_ns < SILENT_NS) {
+        s->has_rival = true;
+        ++*s->damaged;
         return false;
     }
+    if (s->has_rival && !is_other) {
+        tell(s, "a second publisher sends to this topic, too: stop one");
+    }
+    s->has_rival = false;
     s->writer = m->writer;
     s->heard_ns = now_ns;
     return true;

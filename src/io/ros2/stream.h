@@ -9,6 +9,7 @@ typedef struct io_ros2_stream {
     const char *source, *topic; /* for lines */
     io_ros2_reader reader;
     bool is_compressed, is_told;
+    bool has_rival; /* another publisher's message came since the last of its own */
     io_ros_pixels pixels;
     uint64_t writer; /* whose messages are taken; 0 = the first that comes */
     int64_t heard_ns;
