@@ -74,6 +74,10 @@ typedef struct io_camera_info {
  * (REP 104). False when it describes none. */
 bool io_camera_info_size(const io_camera_info *info, int32_t *out_width, int32_t *out_height);
 
+/* Fits the camera's distortion to an equidistant lens of these coefficients; fx, fy, cx, cy and the
+ * size are given. Returns the largest distance that is left, pixels; infinity when nothing fits. */
+double io_equidistant_lens(const double k[4], rlf_camera *camera);
+
 /* The camera of these pictures. Of a topic whose name says "rect" that is P, free of distortion;
  * else K and D. A warning tells what of the lens cannot be used. RLF_ERROR_FORMAT when it is not
  * calibrated or describes no picture. `name`: the file, for these lines. */

@@ -150,6 +150,10 @@ const char *io_ros2_type_hash(const char *type)
          "typehash=RIHS01_15640771531571185e2efc8a100baf923961a4d15d5569652e6cb6691e8e371a;"},
         {"sensor_msgs/msg/PointCloud2",
          "typehash=RIHS01_9198cabf7da3796ae6fe19c4cb3bdd3525492988c70522628af5daa124bae2b5;"},
+        {"tf2_msgs/msg/TFMessage",
+         "typehash=RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087;"},
+        {"visualization_msgs/msg/MarkerArray",
+         "typehash=RIHS01_86cb8800b6fb05b5eff1abd7a56f62a5641d3ae9a1c29e78e67e704f1d067dcf;"},
     };
     for (size_t i = 0; i < sizeof(known) / sizeof(known[0]); i++) {
         if (strcmp(known[i].type, type) == 0) {
