@@ -4,15 +4,17 @@
 #include <math.h>
 #include <string.h>
 
-#define NEWEST 0.15f       /* share of a picture in what is known */
-#define LEAST_SPOTS 24     /* of a brightness */
-#define FLAT 8             /* codes to the other pixels: a place that shows noise and no edge */
-#define PER_MEDIAN 1.4826f /* sigma of a normal distribution over the median of its size */
-#define OUTLIER 4.0f       /* sigma: something that moved */
-#define RISES 1.07         /* of a variance, at most: motion adds to it, and nothing takes off it */
-#define RISES_LEAST 0.1    /* and so much, in square codes */
-#define MOVES 0.75         /* correlation of neighbours: more than any noise has */
-#define MOST_BESIDE 0.6f   /* a blur of three pixels has no more */
+#define NEWEST 0.15f        /* share of a picture in what is known */
+#define LEAST_SPOTS 24      /* of a brightness */
+#define FLAT 8              /* codes to the other pixels: a place that shows noise and no edge */
+#define PER_MEDIAN 1.4826f  /* sigma of a normal distribution over the median of its size */
+#define PER_QUARTILE 3.1383 /* and over the value that a quarter of them are less than */
+#define STEPS_SLACK 1.5     /* for few spots */
+#define OUTLIER 4.0f        /* sigma: something that moved */
+#define RISES 1.07       /* of a variance, at most: motion adds to it, and nothing takes off it */
+#define RISES_LEAST 0.1  /* and so much, in square codes */
+#define MOVES 0.75       /* correlation of neighbours: more than any noise has */
+#define MOST_BESIDE 0.6f /* a blur of three pixels has no more */
 #define STEPS 32.0f
 
 enum { CHANGES = 64 }; /* codes that are told apart */
@@ -51,6 +53,7 @@ enum { HERE, RIGHT, BELOW, FAR, FAR_PIXELS = 4 };
 typedef struct sums {
     int32_t far[3][CHANGES];          /* of a channel, from the pixel far to the right */
     int32_t beside[2][CHANGES];       /* of green, from those next to it */
+    int32_t steps[3][CHANGES];        /* and how often the former differ so much in one picture */
     double red, green, red_and_green; /* sums of squares of the former */
 } sums;
 
@@ -103,6 +106,7 @@ static void add_spot(const grain *g, const grain_spot *last, const grain_spot *n
     for (int k = 0; k < 3; k++) {
         far[k] = change_of(last, now, FAR, k);
         of->far[k][size_of(far[k])]++;
+        of->steps[k][size_of(now->rgb[HERE][k] - now->rgb[FAR][k])]++;
     }
     of->beside[0][size_of(change_of(last, now, RIGHT, 1))]++;
     of->beside[1][size_of(change_of(last, now, BELOW, 1))]++;
@@ -114,8 +118,8 @@ static void add_spot(const grain *g, const grain_spot *last, const grain_spot *n
     }
 }
 
-/* A change of k codes was anything from k - 1/2 to k + 1/2. */
-static float median_of(const int32_t counts[CHANGES], int32_t *out_count)
+/* What `share` of all are less than: a change of k codes was anything from k - 1/2 to k + 1/2. */
+static float quantile_of(const int32_t counts[CHANGES], float share, int32_t *out_count)
 {
     int32_t all = 0;
     for (int32_t k = 0; k < CHANGES; k++) {
@@ -125,9 +129,9 @@ static float median_of(const int32_t counts[CHANGES], int32_t *out_count)
     float below = 0.0f;
     for (int32_t k = 0; k < CHANGES && all > 0; k++) {
         const float here = (float)counts[k];
-        if (below + here >= 0.5f * (float)all) {
+        if (below + here >= share * (float)all) {
             const float low = k > 0 ? (float)k - 0.5f : 0.0f;
-            return low + (k > 0 ? 1.0f : 0.5f) * (0.5f * (float)all - below) / here;
+            return low + (k > 0 ? 1.0f : 0.5f) * (share * (float)all - below) / here;
         }
         below += here;
     }
@@ -137,7 +141,8 @@ static float median_of(const int32_t counts[CHANGES], int32_t *out_count)
 /* Variance of a picture's noise, without what moved: four noises are in a difference of changes. */
 static double variance_of(const int32_t counts[CHANGES], int32_t *out_count)
 {
-    const int32_t limit = (int32_t)(OUTLIER * PER_MEDIAN * median_of(counts, out_count)) + 2;
+    const int32_t limit =
+        (int32_t)(OUTLIER * PER_MEDIAN * quantile_of(counts, 0.5f, out_count)) + 2;
     double square = 0.0;
     double all = 0.0;
     for (int32_t k = 0; k < CHANGES && k <= limit; k++) {
@@ -145,6 +150,15 @@ static double variance_of(const int32_t counts[CHANGES], int32_t *out_count)
         all += counts[k];
     }
     return all > 0.0 ? square / (4.0 * all) : 0.0;
+}
+
+/* At most so much: nothing takes noise off a flat place either, and the flattest show it. Motion
+ * adds nothing here, but texture does, so this alone would be too much. */
+static double most_variance(const int32_t steps[CHANGES])
+{
+    int32_t count;
+    const double sigma = (double)quantile_of(steps, 0.25f, &count) * PER_QUARTILE;
+    return STEPS_SLACK * 0.5 * sigma * sigma;
 }
 
 static void approach(float *value, double now, bool is_known)
@@ -163,7 +177,7 @@ static void take_brightness(grain *g, int32_t bin, const sums *s, pool *out)
     int32_t count;
     double far[3], beside[2];
     for (int k = 0; k < 3; k++) {
-        far[k] = variance_of(s->far[k], &count);
+        far[k] = rlf_min(variance_of(s->far[k], &count), most_variance(s->steps[k]));
     }
     for (int k = 0; k < 2; k++) {
         beside[k] = variance_of(s->beside[k], &count);
