@@ -107,15 +107,6 @@ rlf_result io_ros_write_compressed(io_ros_encoder *e, const rlf_image_rgba8 *c,
     return result;
 }
 
-static void drop_alpha(const uint8_t *rgba, int32_t width, uint8_t *out_rgb)
-{
-    for (int32_t x = 0; x < width; x++) {
-        out_rgb[3 * x + 0] = rgba[4 * x + 0];
-        out_rgb[3 * x + 1] = rgba[4 * x + 1];
-        out_rgb[3 * x + 2] = rgba[4 * x + 2];
-    }
-}
-
 void io_ros_write_color(const rlf_image_rgba8 *c, const io_ros_header *header, io_cdr_writer *cdr)
 {
     const size_t row = (size_t)c->width * 3;
@@ -128,7 +119,7 @@ void io_ros_write_color(const rlf_image_rgba8 *c, const io_ros_header *header, i
     uint8_t *out = io_byte_buffer_reserve(cdr->buffer, row * (size_t)c->height);
     if (out != NULL) {
         for (int32_t y = 0; y < c->height; y++) {
-            drop_alpha(c->data + (ptrdiff_t)y * c->stride, c->width, out + (size_t)y * row);
+            io_rgba_to_rgb(c->data + (ptrdiff_t)y * c->stride, c->width, out + (size_t)y * row);
         }
         io_byte_buffer_grow(cdr->buffer, row * (size_t)c->height);
     }

@@ -6,6 +6,7 @@
 #include <dds/ddsi/ddsi_serdata.h>
 #include <dds/ddsi/q_radmin.h>
 
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,9 +15,56 @@
 
 typedef struct raw_data {
     struct ddsi_serdata c;
-    size_t size;
+    size_t size, room;
+    struct raw_data *next; /* of those that are kept */
     uint8_t bytes[];
 } raw_data;
+
+/* Memory of large messages is used again: the system would clear its pages anew for each picture.
+ * Cyclone DDS frees them from threads of its own, so this is the program's. */
+#define KEPT_MAX 6
+#define KEPT_BYTES ((size_t)128 << 10)
+
+static pthread_mutex_t kept_lock = PTHREAD_MUTEX_INITIALIZER;
+static raw_data *kept;
+static int kept_count;
+
+/* NULL = none of about that size. */
+static raw_data *take_kept(size_t room)
+{
+    raw_data *found = NULL;
+    pthread_mutex_lock(&kept_lock);
+    for (raw_data **at = &kept; *at != NULL && found == NULL; at = &(*at)->next) {
+        if ((*at)->room >= room && (*at)->room / 2 <= room) {
+            found = *at;
+            *at = found->next;
+            kept_count--;
+            break;
+        }
+    }
+    pthread_mutex_unlock(&kept_lock);
+    return found;
+}
+
+/* The oldest one makes room. */
+static void keep(raw_data *d)
+{
+    raw_data *old = NULL;
+    pthread_mutex_lock(&kept_lock);
+    d->next = kept;
+    kept = d;
+    if (++kept_count > KEPT_MAX) {
+        raw_data **at = &kept;
+        while ((*at)->next != NULL) {
+            at = &(*at)->next;
+        }
+        old = *at;
+        *at = NULL;
+        kept_count--;
+    }
+    pthread_mutex_unlock(&kept_lock);
+    free(old);
+}
 
 static const raw_data *raw_of(const struct ddsi_serdata *d)
 {
@@ -31,13 +79,30 @@ static raw_data *make(const struct ddsi_sertype *type, enum ddsi_serdata_kind ki
     if (size > IO_ROS2_MESSAGE_MAX) {
         return NULL;
     }
-    raw_data *d = malloc(sizeof(*d) + ALIGNED(size));
+    const size_t room = ALIGNED(size);
+    raw_data *d = room >= KEPT_BYTES ? take_kept(room) : NULL;
+    if (d == NULL) {
+        d = malloc(sizeof(*d) + room);
+        if (d != NULL) {
+            d->room = room;
+        }
+    }
     if (d != NULL) {
         ddsi_serdata_init(&d->c, type, kind);
         d->size = size;
-        memset(d->bytes + size, 0, ALIGNED(size) - size);
+        memset(d->bytes + size, 0, room - size);
     }
     return d;
+}
+
+static void free_data(struct ddsi_serdata *c)
+{
+    raw_data *d = (raw_data *)(void *)c;
+    if (d->room >= KEPT_BYTES) {
+        keep(d);
+    } else {
+        free(d);
+    }
 }
 
 static bool equal_keys(const struct ddsi_serdata *a, const struct ddsi_serdata *b)
@@ -71,7 +136,7 @@ static struct ddsi_serdata *from_fragments(const struct ddsi_sertype *type,
         }
     }
     if (d != NULL && at < size) {
-        free(d);
+        free_data(&d->c);
         return NULL;
     }
     return d != NULL ? &d->c : NULL;
@@ -157,11 +222,6 @@ static bool untyped_to_sample(const struct ddsi_sertype *type, const struct ddsi
     (void)buffer;
     (void)limit;
     return true;
-}
-
-static void free_data(struct ddsi_serdata *d)
-{
-    free(d);
 }
 
 static size_t print(const struct ddsi_sertype *type, const struct ddsi_serdata *d, char *out,
