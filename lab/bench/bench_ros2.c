@@ -2,7 +2,7 @@
  *   bench_ros2 [OPTIONS]           host and reader on this machine
  *   bench_ros2 --host [OPTIONS]    the host alone, until it is killed
  *   bench_ros2 --read [OPTIONS]    the reader alone
- * --seconds N (5), --profile local|lan, --color WxH (1920x1080; 0x0 = none). Depth is
+ * --seconds N (5), --profile local|lan|FILE, --color WxH (1920x1080; 0x0 = none). Depth is
  * 512 x 424 counts that RVL packs as it packs a room; 30 Hz. */
 #define _POSIX_C_SOURCE 200809L
 #include "io/source/backends.h"
@@ -21,6 +21,7 @@
 #define FRAME_NS 33333333
 #define RATE 30
 #define TIMES_MAX 4096
+#define TRIES 4 /* of a second each, for the host to be there */
 
 typedef struct options {
     bool is_host, is_reader;
@@ -164,7 +165,7 @@ static int run_reader(const options *o)
                                  .keys = {"profile"},
                                  .values = {o->profile}};
     rlf_result opened = RLF_ERROR_DEVICE;
-    for (int i = 0; i < 10 && opened != RLF_OK; i++) {
+    for (int i = 0; i < TRIES && opened != RLF_OK; i++) {
         opened = io_backend_ros2.open(&address, &source);
     }
     if (opened != RLF_OK) {
