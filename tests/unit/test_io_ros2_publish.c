@@ -340,16 +340,16 @@ static void test_nobody_delays_the_loop(void **state)
         is_there = is_idle();
     }
     assert_true(is_there);
-    int64_t sum_ns = 0;
+    int32_t late = 0;
     for (int i = 0; i < 100; i++) {
         const int64_t begin_ns = rlf_clock_ns();
         rlf_ros2_publisher_add(p, &out);
-        sum_ns += rlf_clock_ns() - begin_ns;
+        late += rlf_clock_ns() - begin_ns > 50 * MS ? 1 : 0;
         rest_ms(5);
     }
     assert_true(rlf_ros2_publisher_get_status(p).frames > 0);
-    /* Copies cost some; a write that waits takes a tenth of a second. */
-    assert_true(sum_ns < 100 * 10 * MS);
+    /* Copies cost milliseconds; a write that waits takes a tenth of a second. */
+    assert_true(late < 20);
     rlf_ros2_publisher_close(&p);
     rlf_pipeline_destroy(&pipeline);
     rlf_source_destroy(&source);
