@@ -225,6 +225,7 @@ static rlf_result read_message(void *self, int32_t message, io_cdr_reader *out)
 io_ros_log io_ros2_gathered_log(io_ros2_gathered *g, const char *source)
 {
     return (io_ros_log){.name = source,
+                        .is_live = true,
                         .strangers = "",
                         .channel_count = g->count,
                         .self = g,
