@@ -135,7 +135,7 @@ if ip netns exec "$a" tc qdisc add dev eth9 root tbf rate 940mbit burst 1mb late
     read_frames link_940_mbit
     for tenths in 1 10 20; do
         if lose "$tenths" 2>/dev/null; then
-            read_frames "1080p_loss_0.$tenths"
+            read_frames "1080p_loss_of_${tenths}_in_1000"
             ip netns exec "$b" nft delete table netdev loss
         fi
     done

@@ -13,8 +13,8 @@
 #define WRITE_WAIT DDS_MSECS(100)
 /* ROS's depth of topics whose last message lasts. */
 #define LASTING_DEPTH 64
-/* Two pictures: what a slow reader has not got by then it will not get. */
-#define WRITER_DEPTH 2
+/* Pictures that can be sent again to who lost a part: an eighth of a second. */
+#define WRITER_DEPTH 4
 #define READERS_MAX 256
 
 /* A domain's settings are the process's, and are made with its first node. */
