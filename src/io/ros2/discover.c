@@ -17,14 +17,13 @@ static bool is_reliable(const dds_qos_t *qos)
 static void add(const dds_builtintopic_endpoint_t *e, io_ros2_topic *list, int32_t capacity,
                 int32_t *count)
 {
-    io_ros2_topic topic = {.is_reliable = is_reliable(e->qos), .writers = 1};
+    io_ros2_topic topic = {.is_reliable = is_reliable(e->qos)};
     if (!io_ros2_topic_from_dds(e->topic_name, topic.name, sizeof(topic.name)) ||
         !io_ros2_type_from_dds(e->type_name, topic.type, sizeof(topic.type))) {
         return;
     }
     for (int32_t i = 0; i < *count; i++) {
         if (strcmp(list[i].name, topic.name) == 0 && strcmp(list[i].type, topic.type) == 0) {
-            list[i].writers++;
             list[i].is_reliable = list[i].is_reliable && topic.is_reliable;
             return;
         }

@@ -52,7 +52,6 @@ typedef struct io_ros2_topic {
     char name[IO_ROS2_TOPIC_MAX]; /* "/camera/depth/image_raw" */
     char type[IO_ROS2_TYPE_MAX];  /* "sensor_msgs/msg/Image" */
     bool is_reliable;             /* every writer is */
-    int32_t writers;
 } io_ros2_topic;
 
 #define IO_ROS2_TOPICS_MAX 256
