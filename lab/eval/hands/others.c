@@ -4,7 +4,6 @@
 #include "eval/hands/hands.h"
 #include "eval/measures/percent.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -294,11 +293,6 @@ static rlf_result grasp(grasp_sums *s, act_kind kind, uint64_t seed, truth_part 
     s->whole[kind] += is_let_go;
     s->grab_jump += is_let_go ? run->grab_jump : 0.0;
     s->release_jump += is_let_go ? run->release_jump : 0.0;
-    if (getenv("RLF_GRASPS") != NULL) {
-        fprintf(stderr, "%d kind %d seed %d view %d: lifted %d carried %d (%.0f mm) let go %d\n",
-                part, kind, (int)seed, act->view, is_lifted, is_carried, 1e3 * off_hand(run),
-                is_let_go);
-    }
     close_run(run);
     return result;
 }
@@ -405,9 +399,6 @@ rlf_result hands_others_run(eval_table *table, int64_t seed)
     rlf_result result = RLF_OK;
     for (int part = 0; part < TRUTH_COUNT && result == RLF_OK; part++) {
         grasp_sums s = {.minutes = 0.0};
-        if (getenv("RLF_PARTS") != NULL && !(atoi(getenv("RLF_PARTS")) >> part & 1)) {
-            continue;
-        }
         for (int n = 0; n < ACT_KINDS * (part == 0 ? EACH : 1) && result == RLF_OK; n++) {
             const act_kind kind = (act_kind)(n % ACT_KINDS);
             result = grasp(&s, kind, (uint64_t)(seed * 1000 + n), (truth_part)part);
