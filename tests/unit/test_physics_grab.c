@@ -163,7 +163,7 @@ static int32_t frames_held(bool closes, bool *is_let_go)
     int32_t held = 0;
     for (int frame = 0; frame < 100; frame++) {
         const double t = frame * FRAME;
-        const bool is_up = t > 0.9 && t < 1.5, is_aside = t > 1.6 && t < 2.0;
+        const bool is_up = t > 0.9 && t<1.5, is_aside = t> 1.6 && t < 2.0;
         const double open = 1.0 - ramp(t, 0.3, 0.6) + ramp(t, 2.2, 2.4);
         const rlf_vec3 way = {0.1 * ramp(t, 1.6, 2.0), -0.15 * ramp(t, 0.9, 1.5), 0};
         grid_hand hand = {.place = rlf_add(start, way), .along = {0, 1, 0}, .across = {1, 0, 0}};
