@@ -79,8 +79,9 @@ static void print_help(void)
     printf(
         "usage: relief run [SOURCE] [OPTIONS]\n\n"
         "Runs a source with virtual bodies that collide with what the camera sees.\n"
-        "SOURCE: synthetic:room or a folder with a clip (see `relief list sources`); without one\n"
-        "the window lists cameras and recent recordings.\n\n"
+        "SOURCE: synthetic:room or a folder with a clip (see `relief list sources`), or a list of\n"
+        "cameras of one room, FILE.json; without one the window lists cameras and recent\n"
+        "recordings.\n\n"
         "  --scene NAME          bodies and gravity: a scene that `relief list scenes` tells, or "
         "a\n"
         "                        file scene.json; default: two thrown cubes\n"

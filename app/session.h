@@ -42,8 +42,17 @@ typedef struct session_options {
     bool map_is_whole; /* every frame into all of its blocks, as nobody waits */
 } session_options;
 
+/* What a SOURCE names: one camera, or those of a list (rlf_cameras_load). */
+typedef struct session_cameras {
+    rlf_placed_camera places[RLF_WORLD_CAMERAS_MAX];
+    int32_t count;
+    rlf_source *sources[RLF_WORLD_CAMERAS_MAX]; /* but the first, which is the session's */
+    rlf_pipeline *pipelines[RLF_WORLD_CAMERAS_MAX];
+} session_cameras;
+
 typedef struct session {
     rlf_pool *pool;
+    session_cameras cameras;
     rlf_source *source;
     rlf_scene scene;
     rlf_map *map; /* that is known or will be; NULL = the pipeline's own */

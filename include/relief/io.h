@@ -164,6 +164,20 @@ RLF_API rlf_ros2_status rlf_ros2_publisher_get_status(rlf_ros2_publisher *publis
  */
 RLF_API void rlf_ros2_publisher_close(rlf_ros2_publisher **publisher);
 
+/* ---- several cameras
+ * --------------------------------------------------------------------------------------- */
+
+/* One of the cameras that see the same room. */
+typedef struct rlf_placed_camera {
+    char source[1024];       /* for rlf_open_source */
+    rlf_pose T_world_camera; /* depth camera in the world of them all */
+} rlf_placed_camera;
+
+/* Reads a file that lists cameras (docs/formats.md): 1 to RLF_WORLD_CAMERAS_MAX of them, and
+ * *out_count. Sources that are files lie beside the list. */
+RLF_API rlf_result rlf_cameras_load(const char *path, rlf_placed_camera out[RLF_WORLD_CAMERAS_MAX],
+                                    int32_t *out_count);
+
 /* ---- scenes
  * ----------------------------------------------------------------------------------------- */
 

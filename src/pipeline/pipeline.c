@@ -247,6 +247,37 @@ static rlf_result make_surface(rlf_pipeline *p)
     return result;
 }
 
+/* A frame of a camera that joined, if it has one. One that ended, or fails, shows nothing more. */
+static void see_other(rlf_pipeline *p)
+{
+    rlf_frame frame;
+    rlf_result result = rlf_source_next(p->def.source, &frame);
+    if (result == RLF_OK) {
+        p->last.frame = frame;
+        result = make_surface(p);
+    }
+    if (result == RLF_OK) {
+        lend_surface(p);
+        p->last.frame_index = p->frame_index++;
+    } else if (result != RLF_NO_FRAME) {
+        if (p->has_grid) {
+            rlf_log(RLF_LOG_WARNING, "camera %d, %s: %s: the others go on", (int)p->index + 1,
+                    rlf_source_get_info(p->def.source)->name,
+                    result == RLF_END ? "it has no more frames" : rlf_error_text());
+        }
+        p->has_grid = false;
+    }
+}
+
+static void see_others(rlf_pipeline *p)
+{
+    for (int32_t k = 1; k < RLF_WORLD_CAMERAS_MAX; k++) {
+        if (p->others[k] != NULL && p->others[k]->pushed.source == NULL) {
+            see_other(p->others[k]);
+        }
+    }
+}
+
 rlf_result rlf_pipeline_step(rlf_pipeline *p, rlf_pipeline_output *out)
 {
     if (!RLF_ASSERT(p != NULL && out != NULL)) {
@@ -265,6 +296,7 @@ rlf_result rlf_pipeline_step(rlf_pipeline *p, rlf_pipeline_output *out)
     }
     last->frame = frame;
     last->times.capture_ms = elapsed_ms(&clock);
+    see_others(p);
     result = make_surface(p);
     if (result != RLF_OK) {
         return result;

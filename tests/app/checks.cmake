@@ -38,6 +38,14 @@ if(TARGET relief_app)
   set_tests_properties(app.room PROPERTIES LABELS app TIMEOUT 600)
 endif()
 
+# Several cameras of one room.
+if(TARGET relief_app)
+  add_test(NAME app.cameras
+           COMMAND sh ${PROJECT_SOURCE_DIR}/tests/app/test_cameras.sh $<TARGET_FILE:relief_app>
+                   ${CMAKE_CURRENT_BINARY_DIR}/app_cameras)
+  set_tests_properties(app.cameras PROPERTIES LABELS app TIMEOUT 600)
+endif()
+
 # Recording as a user meets it.
 if(TARGET relief_app AND RELIEF_WITH_MCAP)
   add_test(NAME app.record
