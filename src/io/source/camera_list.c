@@ -130,8 +130,7 @@ static rlf_result read_cameras(const io_json_object *top, rlf_placed_camera *out
     return RLF_OK;
 }
 
-rlf_result rlf_cameras_load(const char *path, rlf_placed_camera out[RLF_WORLD_CAMERAS_MAX],
-                            int32_t *out_count)
+rlf_result rlf_cameras_load(const char *path, rlf_placed_camera *out, int32_t *out_count)
 {
     if (!RLF_ASSERT(path != NULL && out != NULL && out_count != NULL)) {
         return RLF_ERROR_INVALID;
