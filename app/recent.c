@@ -2,41 +2,23 @@
 #define _XOPEN_SOURCE 700
 #include "recent.h"
 
-#include "relief/io.h"
+#include "state_folder.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#define PATH_SIZE 4096
-
-/* False without a home. */
-static bool find_folder(char out[PATH_SIZE])
+static FILE *open_list(const char *name, const char *mode)
 {
-    const char *state = getenv("XDG_STATE_HOME");
-    const char *home = getenv("HOME");
-    int length = -1;
-    if (state != NULL && state[0] == '/') {
-        length = snprintf(out, PATH_SIZE, "%s/relief", state);
-    } else if (home != NULL && home[0] == '/') {
-        length = snprintf(out, PATH_SIZE, "%s/.local/state/relief", home);
-    }
-    return length > 0 && length + (int)sizeof("/recent.part") <= PATH_SIZE;
-}
-
-static FILE *open_list(const char *folder, const char *name, const char *mode)
-{
-    char path[PATH_SIZE];
-    const int length = snprintf(path, sizeof(path), "%s/%s", folder, name);
-    return length > 0 && length < PATH_SIZE ? fopen(path, mode) : NULL;
+    char path[STATE_PATH_SIZE];
+    return state_path(name, path) ? fopen(path, mode) : NULL;
 }
 
 void recent_load(recent_list *out)
 {
-    char folder[PATH_SIZE];
     out->count = 0;
-    FILE *file = find_folder(folder) ? open_list(folder, "recent", "r") : NULL;
+    FILE *file = open_list("recent", "r");
     while (file != NULL && out->count < RECENT_MAX) {
         char *line = out->paths[out->count];
         if (fgets(line, RECENT_SIZE, file) == NULL) {
@@ -50,9 +32,9 @@ void recent_load(recent_list *out)
     }
 }
 
-static void write_list(const char *folder, const char *first, const recent_list *others)
+static void write_list(const char *first, const recent_list *others)
 {
-    FILE *file = rlf_make_folder(folder) == RLF_OK ? open_list(folder, "recent.part", "w") : NULL;
+    FILE *file = state_make_folder() ? open_list("recent.part", "w") : NULL;
     if (file == NULL) {
         return;
     }
@@ -63,10 +45,10 @@ static void write_list(const char *folder, const char *first, const recent_list 
         }
     }
     is_good = fclose(file) == 0 && is_good;
-    char part[PATH_SIZE + 16];
-    char whole[PATH_SIZE + 16];
-    (void)snprintf(part, sizeof(part), "%s/recent.part", folder);
-    (void)snprintf(whole, sizeof(whole), "%s/recent", folder);
+    char part[STATE_PATH_SIZE];
+    char whole[STATE_PATH_SIZE];
+    (void)state_path("recent.part", part);
+    (void)state_path("recent", whole);
     if (!is_good || rename(part, whole) != 0) {
         (void)remove(part);
     }
@@ -74,13 +56,11 @@ static void write_list(const char *folder, const char *first, const recent_list 
 
 void recent_note(const char *source)
 {
-    char folder[PATH_SIZE];
     char *path = realpath(source, NULL);
-    if (path != NULL && strlen(path) + 2 <= RECENT_SIZE && strchr(path, '\n') == NULL &&
-        find_folder(folder)) {
+    if (path != NULL && strlen(path) + 2 <= RECENT_SIZE && strchr(path, '\n') == NULL) {
         recent_list list;
         recent_load(&list);
-        write_list(folder, path, &list);
+        write_list(path, &list);
     }
     free(path);
 }

@@ -74,7 +74,7 @@ rlf_result run_output_save(run_output *out, const rlf_image_rgba8 *image, char *
         return rlf_fail(RLF_ERROR_IO, "%s: the path is too long", folder);
     }
     snprintf(out_message, message_size, "saved %s", path);
-    return rlf_png_write_rgba(path, image);
+    return rlf_png_write_premultiplied(path, image);
 }
 
 rlf_result run_output_save_scene(const run_output *out, const rlf_known_def *known, int32_t count,

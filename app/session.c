@@ -77,6 +77,25 @@ static rlf_result open_recorder(const session_options *options, session *s)
     return result == RLF_OK ? recorder_tap(s->recorder, &s->source) : result;
 }
 
+/* The pair's second camera is the projector, which shines where a camera looks. */
+static rlf_result set_projector(const char *path, rlf_pipeline *pipeline)
+{
+    rlf_rig rig;
+    double units;
+    if (path == NULL) {
+        return RLF_OK;
+    }
+    const rlf_result result = rlf_rig_load(path, &rig, &units);
+    if (result == RLF_OK && !rig.has_color) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "%s: has one camera: a projector needs a calibrated pair, of the depth "
+                        "camera and the projector (relief calibrate)",
+                        path);
+    }
+    return result == RLF_OK ? rlf_pipeline_set_projector(pipeline, &rig.color, &rig.T_color_depth)
+                            : result;
+}
+
 static rlf_result create_pipeline(const session_options *options, session *s)
 {
     const rlf_source_info *info = rlf_source_get_info(s->source);
@@ -106,7 +125,8 @@ static rlf_result create_pipeline(const session_options *options, session *s)
     def.compositor.enable_real_shade = !options->no_real_shade;
     def.compositor.enable_real_ambient = !options->no_real_ambient;
     s->reconstruct = def.reconstruct;
-    return rlf_pipeline_create(&def, &s->pipeline);
+    const rlf_result result = rlf_pipeline_create(&def, &s->pipeline);
+    return result == RLF_OK ? set_projector(options->projector_path, s->pipeline) : result;
 }
 
 /* A block of a map has 1.2 times its bytes in the file; the rest is for what the room grows by. */
@@ -188,6 +208,14 @@ rlf_result session_replace(session *s, const session_options *options)
         *s = fresh;
     }
     return result;
+}
+
+rlf_result session_again(session *s, const session_options *options)
+{
+    (void)recorder_destroy(&s->recorder, NULL);
+    rlf_source_destroy(&s->source);
+    s->playback = NULL; /* was the source's */
+    return session_replace(s, options);
 }
 
 rlf_result session_renew(session *s, const session_options *options)

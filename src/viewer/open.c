@@ -27,6 +27,8 @@ static void begin_stage(viewer *v, const rlf_window_stage *stage)
     v->silent_s = 0;
     v->grab.is_on = false;
     v->place.is_on = false;
+    v->undo.count = 0; /* what they borrow is gone */
+    v->kiosk.is_lost = false;
     v->due_ns = rlf_clock_ns();
     v->last_step_ns = 0;
     viewer_choose_renderer(v);
@@ -42,7 +44,9 @@ bool viewer_open_stage(viewer *v, rlf_window_opening what, const char *text)
         return false;
     }
     if (v->options->on_open(v->options->context, what, text, &stage) != RLF_OK) {
-        viewer_show_error(v, rlf_error_text());
+        if (what != RLF_WINDOW_OPEN_AGAIN) { /* which the kiosk tells */
+            viewer_show_error(v, rlf_error_text());
+        }
         return false;
     }
     begin_stage(v, &stage);

@@ -29,18 +29,6 @@ static void draw_shape(viewer_panel *p)
     ImGui::EndCombo();
 }
 
-static void delete_all(viewer *v)
-{
-    rlf_world *world = rlf_pipeline_get_world(v->stage.pipeline);
-    for (int32_t left = rlf_world_get_snapshot(world)->body_count; left > 0; left--) {
-        const rlf_snapshot *s = rlf_world_get_snapshot(world);
-        if (s->body_count > 0) {
-            rlf_world_remove_body(world, s->bodies[s->body_count - 1].id);
-        }
-    }
-    v->is_redraw_due = true;
-}
-
 void panel_draw_bodies(viewer_panel *p)
 {
     viewer *v = p->v;
@@ -67,8 +55,13 @@ void panel_draw_bodies(viewer_panel *p)
         panel_ask_for(p, PANEL_MODEL, p->model);
     }
     if (ImGui::Button("Delete all bodies")) {
-        delete_all(v);
+        viewer_remove_all(v);
     }
+    ImGui::SameLine();
+    if (ImGui::Button("Bring back")) {
+        viewer_bring_back(v);
+    }
+    panel_tip("those that were deleted last (U, or Ctrl and Z)");
     panel_note("Click throws one. Drag a body to carry it; let go to throw it.");
 }
 

@@ -22,7 +22,7 @@ void viewer_save_picture(viewer *v)
     char path[64];
     (void)snprintf(path, sizeof path, "relief-%06lld.png", (long long)v->frames_done);
     (void)snprintf(text, sizeof text, "saved %s", path);
-    viewer_show_result(v, rlf_png_write_rgba(path, image), text);
+    viewer_show_result(v, rlf_png_write_premultiplied(path, image), text);
 }
 
 /* ---- recording ------------------------------------------------------------------------------ */

@@ -124,7 +124,7 @@ static void click(start_page *page, double x, double y)
     int32_t height;
     double u, v;
     viewer_window_get_size(&page->window, &width, &height);
-    const viewer_fit fit = {width, height, WIDTH, HEIGHT};
+    const viewer_fit fit = {width, height, WIDTH, HEIGHT, false, NULL};
     if (width > 0 && height > 0 && viewer_fit_pick(&fit, x, y, &u, &v) && v >= LINE_START) {
         const int32_t row = (int32_t)((v - LINE_START) / LINE_PITCH) - HEAD;
         choose(page, row >= 0 && row < ROWS ? page->first + row : -1);

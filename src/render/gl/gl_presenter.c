@@ -1,33 +1,55 @@
-/* Shows an image in a window: one textured rectangle with black bars, and others over it. */
+/* Shows an image in a window: black bars around it or its edges cut, and askew where a projector
+ * is; and others over it. */
 #include "render/gl/gl_context.h"
 
 #include "relief/gl.h"
 
+#include <string.h>
+
 struct rlf_gl_presenter {
     GLuint program, empty_array;
-    GLint u_flip;
+    GLint u_map, u_fit;
     gl_texture texture, over;
-    bool is_mirrored;
+    bool is_mirrored, fills;
+    GLfloat map[9]; /* by columns, as GL takes it */
 };
+
+/* From a place of the framebuffer to one of the image. */
+typedef struct image_fit {
+    GLfloat scale[2], shift[2];
+} image_fit;
+
+static const GLfloat same_place[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
 /* Row 0 of the image is the top of the window. */
 static const char presenter_vertex[] =
-    "uniform float u_flip;\n" /* 1: left and right changed */
-    "out vec2 v_uv;\n"
+    "out vec2 v_at;\n"
     "void main()\n"
     "{\n"
     "    vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);\n"
-    "    v_uv = vec2(0.5 + (0.5 - u_flip) * corner.x, 0.5 - 0.5 * corner.y);\n"
+    "    v_at = 0.5 + vec2(0.5, -0.5) * corner;\n"
     "    gl_Position = vec4(corner, 0.0, 1.0);\n"
     "}\n";
 
-static const char presenter_fragment[] = "in vec2 v_uv;\n"
-                                         "uniform sampler2D u_image;\n"
-                                         "out vec4 o_color;\n"
-                                         "void main()\n"
-                                         "{\n"
-                                         "    o_color = texture(u_image, v_uv);\n"
-                                         "}\n";
+static const char presenter_fragment[] =
+    "in vec2 v_at;\n"
+    "uniform sampler2D u_image;\n"
+    "uniform mat3 u_map;\n"
+    "uniform vec4 u_fit;\n" /* scale, shift */
+    "out vec4 o_color;\n"
+    "bool is_outside(vec2 at)\n"
+    "{\n"
+    "    return any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0)));\n"
+    "}\n"
+    "void main()\n"
+    "{\n"
+    "    vec3 mapped = u_map * vec3(v_at, 1.0);\n"
+    "    vec2 place = mapped.xy / mapped.z;\n"
+    "    vec2 uv = u_fit.xy * place + u_fit.zw;\n"
+    "    vec4 color = texture(u_image, uv);\n"
+    "    bool is_bar = mapped.z <= 0.0 || is_outside(place) || is_outside(uv);\n"
+    "    o_color = is_bar ? vec4(0.0, 0.0, 0.0, 1.0) : color;\n"
+    "}\n";
 
 rlf_result rlf_gl_presenter_create(rlf_gl_presenter **out)
 {
@@ -50,10 +72,12 @@ rlf_result rlf_gl_presenter_create(rlf_gl_presenter **out)
         return RLF_ERROR_DEVICE;
     }
     glGenVertexArrays(1, &p->empty_array);
-    p->u_flip = glGetUniformLocation(p->program, "u_flip");
+    p->u_map = glGetUniformLocation(p->program, "u_map");
+    p->u_fit = glGetUniformLocation(p->program, "u_fit");
     p->texture = gl_texture_create(GL_LINEAR);
     p->over = gl_texture_create(GL_NEAREST);
-    p->is_mirrored = false;
+    p->is_mirrored = p->fills = false;
+    memcpy(p->map, same_place, sizeof p->map);
     *out = p;
     return RLF_OK;
 }
@@ -72,16 +96,26 @@ void rlf_gl_presenter_destroy(rlf_gl_presenter **presenter)
     *presenter = NULL;
 }
 
-/* Largest rectangle of the image's proportions inside the framebuffer, at least one pixel. */
-static void set_letterbox(const rlf_image_rgba8 *image, int32_t width, int32_t height)
+/* Largest rectangle of the image's proportions inside the framebuffer, or the smallest around it,
+ * in whole pixels and at least one. */
+static image_fit fit_image(const rlf_gl_presenter *p, const rlf_image_rgba8 *image, int32_t width,
+                           int32_t height)
 {
-    int64_t fitted_width = (int64_t)image->width * height / image->height;
-    int64_t fitted_height = (int64_t)image->height * width / image->width;
-    int32_t w = fitted_width < width ? (int32_t)fitted_width : width;
-    int32_t h = fitted_width < width ? height : (int32_t)fitted_height;
+    const int64_t fitted_width = (int64_t)image->width * height / image->height;
+    const int64_t fitted_height = (int64_t)image->height * width / image->width;
+    const bool by_height = (fitted_width < width) != p->fills;
+    int32_t w = by_height ? (int32_t)fitted_width : width;
+    int32_t h = by_height ? height : (int32_t)fitted_height;
     w = w > 0 ? w : 1;
     h = h > 0 ? h : 1;
-    glViewport((width - w) / 2, (height - h) / 2, w, h);
+    const GLfloat x = (GLfloat)((width - w) / 2), y = (GLfloat)((height - h) / 2);
+    image_fit fit = {{(GLfloat)width / (GLfloat)w, (GLfloat)height / (GLfloat)h},
+                     {-x / (GLfloat)w, -y / (GLfloat)h}};
+    if (p->is_mirrored) {
+        fit.scale[0] = -fit.scale[0];
+        fit.shift[0] = 1.0f - fit.shift[0];
+    }
+    return fit;
 }
 
 void rlf_gl_presenter_set_mirror(rlf_gl_presenter *presenter, bool is_mirrored)
@@ -91,10 +125,23 @@ void rlf_gl_presenter_set_mirror(rlf_gl_presenter *presenter, bool is_mirrored)
     }
 }
 
-static void draw_texture(const rlf_gl_presenter *p, const gl_texture *texture, bool is_flipped)
+void rlf_gl_presenter_set_place(rlf_gl_presenter *presenter, bool fills, const rlf_mat3 *map)
+{
+    if (!RLF_ASSERT(presenter != NULL)) {
+        return;
+    }
+    presenter->fills = fills;
+    for (int i = 0; i < 9; i++) {
+        presenter->map[i] = map != NULL ? (GLfloat)map->m[i % 3][i / 3] : same_place[i];
+    }
+}
+
+static void draw_texture(const rlf_gl_presenter *p, const gl_texture *texture, const GLfloat map[9],
+                         const image_fit *fit)
 {
     glUseProgram(p->program);
-    glUniform1f(p->u_flip, is_flipped ? 1.0f : 0.0f);
+    glUniformMatrix3fv(p->u_map, 1, GL_FALSE, map);
+    glUniform4f(p->u_fit, fit->scale[0], fit->scale[1], fit->shift[0], fit->shift[1]);
     gl_texture_bind(texture, 0);
     glBindVertexArray(p->empty_array);
     glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -126,8 +173,8 @@ void rlf_gl_presenter_draw(rlf_gl_presenter *presenter, const rlf_image_rgba8 *i
     glViewport(0, 0, framebuffer_width, framebuffer_height);
     glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
     glClear(GL_COLOR_BUFFER_BIT);
-    set_letterbox(image, framebuffer_width, framebuffer_height);
-    draw_texture(presenter, &presenter->texture, presenter->is_mirrored);
+    const image_fit fit = fit_image(presenter, image, framebuffer_width, framebuffer_height);
+    draw_texture(presenter, &presenter->texture, presenter->map, &fit);
 }
 
 void rlf_gl_presenter_draw_over(rlf_gl_presenter *presenter, const rlf_image_rgba8 *image,
@@ -141,6 +188,7 @@ void rlf_gl_presenter_draw_over(rlf_gl_presenter *presenter, const rlf_image_rgb
     glViewport(x, framebuffer_height - y - image->height, image->width, image->height);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
-    draw_texture(presenter, &presenter->over, false);
+    const image_fit whole = {{1.0f, 1.0f}, {0.0f, 0.0f}};
+    draw_texture(presenter, &presenter->over, same_place, &whole);
     glDisable(GL_BLEND);
 }
