@@ -14,12 +14,10 @@ static bool ends_with(const char *text, const char *end)
 /* Looks at what was opened from its first frame on. */
 static void begin_stage(viewer *v, const rlf_window_stage *stage)
 {
-    const rlf_playback_end end =
-        v->stage.playback != NULL ? rlf_playback_get_end(v->stage.playback) : RLF_PLAYBACK_LOOP;
-    v->stage = *stage;
-    if (stage->playback != NULL) {
-        rlf_playback_set_end(stage->playback, end);
+    if (v->stage.playback != NULL && stage->playback != NULL) {
+        rlf_playback_set_end(stage->playback, rlf_playback_get_end(v->stage.playback));
     }
+    v->stage = *stage;
     memset(&v->frame, 0, sizeof v->frame);
     v->has_frame = false;
     v->is_at_end = false;

@@ -91,6 +91,7 @@ typedef struct viewer {
     int32_t message_count;
     rlf_recording *recording; /* of the window's own; NULL = none */
     char recording_path[64];
+    int64_t recording_ns; /* when it began */
     char lines[VIEWER_LINES_MAX][VIEWER_LINE_SIZE];
     viewer_mark line_marks[VIEWER_LINES_MAX]; /* before their text */
     int32_t line_count;
