@@ -2,6 +2,7 @@
 #define _XOPEN_SOURCE 700
 #include "recent.h"
 
+#include "picture_file.h"
 #include "state_folder.h"
 
 #include <stdio.h>
@@ -9,10 +10,46 @@
 #include <string.h>
 #include <unistd.h>
 
+#define PICTURE_WIDTH 128 /* pixels, about */
+
 static FILE *open_list(const char *name, const char *mode)
 {
     char path[STATE_PATH_SIZE];
     return state_path(name, path) ? fopen(path, mode) : NULL;
+}
+
+/* Named by the recording's path: FNV-1a of 64 bits. */
+static bool picture_path(const char *path, char out[STATE_PATH_SIZE])
+{
+    char name[48];
+    uint64_t hash = UINT64_C(14695981039346656037);
+    for (const char *c = path; *c != '\0'; c++) {
+        hash = (hash ^ (uint8_t)*c) * UINT64_C(1099511628211);
+    }
+    (void)snprintf(name, sizeof(name), "recent-%016llx.png", (unsigned long long)hash);
+    return state_path(name, out);
+}
+
+void recent_find_picture(const char *source, char *out, size_t size)
+{
+    char path[STATE_PATH_SIZE];
+    const bool is_there = picture_path(source, path) && access(path, R_OK) == 0;
+    const int length = snprintf(out, size, "%s", is_there ? path : "");
+    if (length < 0 || (size_t)length >= size) {
+        out[0] = '\0';
+    }
+}
+
+void recent_keep_picture(const char *source, const rlf_image_rgba8 *image)
+{
+    char path[STATE_PATH_SIZE];
+    char *whole = realpath(source, NULL);
+    if (whole != NULL && picture_path(whole, path) && access(path, R_OK) != 0 &&
+        state_make_folder()) {
+        const int32_t factor = image->width / PICTURE_WIDTH;
+        (void)picture_file_write(path, image, factor > 1 ? factor : 1);
+    }
+    free(whole);
 }
 
 void recent_load(recent_list *out)
@@ -34,14 +71,22 @@ void recent_load(recent_list *out)
 
 static void write_list(const char *first, const recent_list *others)
 {
+    char old[STATE_PATH_SIZE];
     FILE *file = state_make_folder() ? open_list("recent.part", "w") : NULL;
     if (file == NULL) {
         return;
     }
     bool is_good = fprintf(file, "%s\n", first) > 0;
+    int32_t count = 1;
     for (int32_t i = 0; i < others->count; i++) {
-        if (strcmp(others->paths[i], first) != 0) {
+        if (strcmp(others->paths[i], first) == 0) {
+            continue;
+        }
+        if (count < RECENT_MAX) {
             is_good = fprintf(file, "%s\n", others->paths[i]) > 0 && is_good;
+            count++;
+        } else if (picture_path(others->paths[i], old)) {
+            (void)remove(old);
         }
     }
     is_good = fclose(file) == 0 && is_good;

@@ -22,9 +22,15 @@ typedef struct run_stage {
     int32_t first_setting;           /* those before are the command line's */
 } run_stage;
 
+/* One second is enough for cameras to settle, and for bodies to be seen. */
+#define PICTURE_FRAME 30
+
 static rlf_result on_frame(void *context, const rlf_pipeline_output *frame)
 {
     const run_stage *stage = context;
+    if (frame->frame_index == PICTURE_FRAME && frame->frame.color.data != NULL) {
+        recent_keep_picture(stage->options.session.source, &frame->frame.color);
+    }
     const rlf_result result = run_output_add(stage->output, frame);
     publisher_apply(stage->output->publisher, stage->session->pipeline, stage->output->recorder);
     return result;

@@ -178,7 +178,7 @@ void viewer_panel_draw(viewer_panel *p)
     const int32_t own = window->panel_width;
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
-    panel_set_style(&p->style, window->handle, p->v->is_light);
+    panel_set_style(&p->style, window->handle, p->v->is_light, nullptr);
     press_taps(p, true);
     lead_list(p);
     ImGui::NewFrame();

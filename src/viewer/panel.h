@@ -37,6 +37,8 @@ int32_t viewer_panel_get_width(const viewer_panel *panel);
 typedef struct viewer_menu viewer_menu;
 viewer_menu *viewer_menu_create(viewer_window *window);
 void viewer_menu_destroy(viewer_menu **menu);
+/* Takes the pictures of a new list. */
+void viewer_menu_look(viewer_menu *menu, const rlf_window_choice *choices, int32_t count);
 /* Returns the one that was clicked, -1 = none. `selected` is in view. Before the swap. */
 int32_t viewer_menu_draw(viewer_menu *menu, const rlf_window_choice *choices, int32_t count,
                          int32_t selected);

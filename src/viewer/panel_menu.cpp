@@ -8,6 +8,7 @@
 #include <string.h>
 
 #define NAME_SHARE 0.24f /* of the list's width */
+#define PICTURE_ROWS 3.0f /* of text, as high as a picture is */
 #define MENU_WORD 100    /* room for a name */
 #define MARGIN 0.06f     /* of the window, around the page */
 
@@ -15,6 +16,7 @@ struct viewer_menu {
     viewer_window *window;
     panel_style style;
     int32_t shown; /* the selected one when it was drawn last */
+    panel_pictures pictures;
 };
 
 viewer_menu *viewer_menu_create(viewer_window *window)
@@ -38,8 +40,16 @@ void viewer_menu_destroy(viewer_menu **menu)
         return;
     }
     panel_context_close();
+    panel_pictures_free(&(*menu)->pictures);
     rlf_free(*menu);
     *menu = nullptr;
+}
+
+void viewer_menu_look(viewer_menu *menu, const rlf_window_choice *choices, int32_t count)
+{
+    panel_pictures_load(&menu->pictures, choices, count);
+    menu->style.scale = 0.0f; /* the texture is made anew */
+    menu->shown = -1;
 }
 
 /* What the texts of a kind begin with, and the title over the first of them. */
@@ -72,6 +82,20 @@ static const char *split(const char *text, char *out_name, const char **out_abou
     return title;
 }
 
+/* What it is below its name, where a picture makes room; else beside it. */
+static void write_words(const char *name, const char *about, bool is_below)
+{
+    ImGui::BeginGroup();
+    ImGui::TextUnformatted(name);
+    if (about[0] != '\0' && !is_below) {
+        ImGui::SameLine(NAME_SHARE * ImGui::GetWindowWidth());
+    }
+    if (about[0] != '\0') {
+        ImGui::TextDisabled("%s", about);
+    }
+    ImGui::EndGroup();
+}
+
 static bool draw_choice(const viewer_menu *menu, const rlf_window_choice *choice, int32_t index,
                         bool is_selected, const char **title)
 {
@@ -85,9 +109,11 @@ static bool draw_choice(const viewer_menu *menu, const rlf_window_choice *choice
     if (index < 9) {
         number[0] = (char)('1' + index);
     }
+    const bool has_picture = menu->pictures.items[index].image.data != nullptr;
+    const float height = has_picture ? PICTURE_ROWS * ImGui::GetTextLineHeight() : 0.0f;
     ImGui::PushID(index);
     ImGui::PushStyleColor(ImGuiCol_Header, ImGui::GetStyleColorVec4(ImGuiCol_HeaderHovered));
-    const bool is_clicked = ImGui::Selectable("##choice", is_selected);
+    const bool is_clicked = ImGui::Selectable("##choice", is_selected, 0, ImVec2(0.0f, height));
     ImGui::PopStyleColor();
     ImGui::PopID();
     if (is_selected && menu->shown != index) {
@@ -96,11 +122,10 @@ static bool draw_choice(const viewer_menu *menu, const rlf_window_choice *choice
     ImGui::SameLine(0.5f * ImGui::GetFontSize());
     ImGui::TextDisabled("%s", number);
     ImGui::SameLine(2.0f * ImGui::GetFontSize());
-    ImGui::TextUnformatted(name);
-    if (about[0] != '\0') {
-        ImGui::SameLine(NAME_SHARE * ImGui::GetWindowWidth());
-        ImGui::TextDisabled("%s", about);
+    if (has_picture && panel_pictures_draw(&menu->pictures, index, height)) {
+        ImGui::SameLine();
     }
+    write_words(name, about, has_picture);
     return is_clicked;
 }
 
@@ -134,7 +159,7 @@ int32_t viewer_menu_draw(viewer_menu *menu, const rlf_window_choice *choices, in
 {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
-    panel_set_style(&menu->style, menu->window->handle, false);
+    panel_set_style(&menu->style, menu->window->handle, false, &menu->pictures);
     ImGui::NewFrame();
     const int32_t clicked = draw_page(menu, choices, count, selected);
     ImGui::Render();

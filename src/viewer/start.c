@@ -58,6 +58,9 @@ static void look_again(start_page *page)
 {
     page->count = page->list(page->context, page->choices);
     page->selected = page->selected < page->count ? page->selected : 0;
+    if (page->menu != NULL) {
+        viewer_menu_look(page->menu, page->choices, page->count);
+    }
 }
 
 /* What is selected is shown. */
@@ -197,8 +200,8 @@ rlf_result rlf_window_choose(rlf_window_list_fn list, void *context,
     result = rlf_gl_presenter_create(&page.presenter);
     result = result == RLF_OK ? open_room(&page) : result;
     if (result == RLF_OK) {
-        look_again(&page);
         page.menu = viewer_menu_create(&page.window);
+        look_again(&page);
         result = run(&page, interrupted);
         viewer_menu_destroy(&page.menu);
     }
