@@ -140,6 +140,11 @@ static void run_switches(viewer *v, const viewer_commands *commands)
                                  ? "no panel here: it needs OpenGL 3.3, and this display has ES"
                                  : "this build has no panel: " VIEWER_GET_PANEL);
     }
+    if (commands->open_files && v->window.panel_width > 0) {
+        viewer_panel_open_files(v->panel);
+    } else if (commands->open_files) {
+        viewer_show_message(v, "the list of files is the panel's: M brings it, or drop a file here");
+    }
     if (commands->next_end && v->stage.playback != NULL) {
         viewer_set_end(v,
                        (rlf_playback_end)((int)(rlf_playback_get_end(v->stage.playback) + 1) % 3));

@@ -111,6 +111,10 @@ static void on_key(GLFWwindow *handle, int key, int scancode, int action, int mo
     if (action == GLFW_PRESS && window->tap_count < VIEWER_TAPS_MAX) {
         window->taps[window->tap_count++] = key;
     }
+    if (key == GLFW_KEY_O && (modifiers & GLFW_MOD_CONTROL) != 0 && action == GLFW_PRESS &&
+        !window->is_key_taken) {
+        window->commands.open_files = true;
+    }
     if (key == GLFW_KEY_Z && (modifiers & GLFW_MOD_CONTROL) != 0 && action == GLFW_PRESS &&
         !window->is_key_taken) {
         window->commands.bring_back = true;

@@ -15,7 +15,7 @@ static const char *const help_lines[] = {
     "right drag turns points and map, wheel zooms",
     "click or T: throw, drag for speed   G another shape",
     "drag a body: pick it up   Delete: the one under the mouse   U brings it back",
-    "drop a recording, a scene or a model on the window",
+    "Ctrl and O, or drop: a recording, a scene or a model",
     "S or P picture   E record   F full screen   Esc leaves it   Q quit",
     "A bodies alone   W fill the window   D drag the picture's corners",
     "H keys and figures   I all text   M panel   K place models of real things",

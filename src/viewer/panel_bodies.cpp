@@ -49,10 +49,14 @@ void panel_draw_bodies(viewer_panel *p)
         thrown->restitution = rlf_clamp(restitution, 0.0, 1.0);
     }
     panel_label("Model", "a file to throw; you can also drop it on the window");
+    ImGui::SetNextItemWidth(-panel_files_button_width());
     if (ImGui::InputTextWithHint("##model", ".glb, .gltf, .obj", p->model, sizeof p->model,
                                  ImGuiInputTextFlags_EnterReturnsTrue) &&
         p->model[0] != '\0') {
         panel_ask_for(p, PANEL_MODEL, p->model);
+    }
+    if (panel_files_button()) {
+        panel_files_open(&p->files, PANEL_MODEL, ".glb .gltf .obj");
     }
     if (ImGui::Button("Delete all bodies")) {
         viewer_remove_all(v);

@@ -17,6 +17,7 @@ struct viewer_menu {
     panel_style style;
     int32_t shown; /* the selected one when it was drawn last */
     panel_pictures pictures;
+    panel_files files;
 };
 
 viewer_menu *viewer_menu_create(viewer_window *window)
@@ -129,8 +130,22 @@ static bool draw_choice(const viewer_menu *menu, const rlf_window_choice *choice
     return is_clicked;
 }
 
-static int32_t draw_page(viewer_menu *menu, const rlf_window_choice *choices, int32_t count,
-                         int32_t selected)
+/* Any other file or folder becomes one more choice, the last. */
+static int32_t draw_files(viewer_menu *menu, rlf_window_choice *choices, int32_t count)
+{
+    if (ImGui::SmallButton("Open a file or folder (O)")) {
+        panel_files_open(&menu->files, PANEL_SOURCE, nullptr);
+    }
+    const bool is_chosen = panel_files_draw(&menu->files);
+    if (!is_chosen || count == RLF_WINDOW_CHOICES_MAX) {
+        return -1;
+    }
+    choices[count] = {};
+    snprintf(choices[count].source, sizeof choices[count].source, "%s", menu->files.path);
+    return count;
+}
+
+static int32_t draw_page(viewer_menu *menu, rlf_window_choice *choices, int32_t count, int32_t selected)
 {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const char *title = "";
@@ -148,22 +163,32 @@ static int32_t draw_page(viewer_menu *menu, const rlf_window_choice *choices, in
         clicked = draw_choice(menu, &choices[i], i, i == selected, &title) ? i : clicked;
     }
     ImGui::EndChild();
+    const int32_t other = draw_files(menu, choices, count);
+    ImGui::SameLine();
     panel_note("Arrows and Enter, number or click    R  look again    Q  quit");
     ImGui::End();
     menu->shown = selected;
-    return clicked;
+    return other >= 0 ? other : clicked;
 }
 
-int32_t viewer_menu_draw(viewer_menu *menu, const rlf_window_choice *choices, int32_t count,
-                         int32_t selected)
+void viewer_menu_open_files(viewer_menu *menu)
 {
+    panel_files_open(&menu->files, PANEL_SOURCE, nullptr);
+}
+
+int32_t viewer_menu_draw(viewer_menu *menu, rlf_window_choice *choices, int32_t count, int32_t selected)
+{
+    viewer_window *window = menu->window;
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     panel_set_style(&menu->style, menu->window->handle, false, &menu->pictures);
+    panel_press_taps(window, true);
+    panel_lead_list(window->is_list_open);
     ImGui::NewFrame();
     const int32_t clicked = draw_page(menu, choices, count, selected);
     ImGui::Render();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-    menu->window->tap_count = 0;
+    panel_press_taps(window, false);
+    window->is_list_open = window->is_key_taken = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
     return clicked;
 }

@@ -13,6 +13,7 @@
 
 #define WIDTH 480 /* of the picture; the window is twice as large */
 #define HEIGHT 270
+#define KEY_O 10 /* the view that it is for in the window */
 #define WAIT_S 0.05
 #define HEAD 1 /* lines over the list */
 #define FOOT 1
@@ -115,7 +116,10 @@ static void present(start_page *page)
     if (width > 0 && height > 0) {
         rlf_gl_presenter_draw(page->presenter, &page->frame.render.image, width, height);
         if (page->menu != NULL) {
-            choose(page, viewer_menu_draw(page->menu, page->choices, page->count, page->selected));
+            const int32_t clicked =
+                viewer_menu_draw(page->menu, page->choices, page->count, page->selected);
+            page->count += clicked == page->count ? 1 : 0;
+            choose(page, clicked);
         }
         viewer_window_swap(&page->window);
     }
@@ -142,6 +146,11 @@ static bool run_commands(start_page *page)
     if (commands.restart) {
         look_again(page);
     }
+    if (page->menu != NULL && (commands.open_files || commands.view == KEY_O)) {
+        viewer_menu_open_files(page->menu);
+    } else {
+        choose(page, commands.view);
+    }
     if (commands.leave) {
         viewer_window_leave(&page->window);
     }
@@ -149,7 +158,6 @@ static bool run_commands(start_page *page)
     const int32_t step = commands.nudge_y - turned;
     const int32_t selected = page->selected + step;
     page->selected = (int32_t)rlf_clamp(selected, 0, page->count - 1);
-    choose(page, commands.view);
     if (commands.solve_points) {
         choose(page, page->selected);
     }

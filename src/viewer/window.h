@@ -18,6 +18,7 @@ typedef struct viewer_commands {
     bool press;              /* the left button went down */
     double press_x, press_y; /* where, window position */
     bool delete_body;        /* the one under the mouse */
+    bool open_files;         /* the list to choose one from */
     bool bring_back;         /* those that were deleted last */
     bool toggle_fill, toggle_corners;
     bool toggle_overlay, toggle_mirror, toggle_panel, next_end, next_shape;
