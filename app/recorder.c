@@ -19,7 +19,7 @@ struct recorder {
     char path[4096];
     int64_t start_ns; /* of the running one */
     bool is_running;  /* set under `fills`; the rest is there while it is */
-    bool is_ending;  /* no more comes; the thread still writes, until has_ended */
+    bool is_ending;   /* no more comes; the thread still writes, until has_ended */
     _Atomic bool has_ended;
     rlf_recording *recording;
     record_queue queue;
@@ -330,10 +330,10 @@ bool recorder_describe(recorder *r, char *out, size_t size)
     }
     const recorder_status s = recorder_get_status(r);
     const int64_t seconds = (rlf_clock_ns() - r->start_ns) / INT64_C(1000000000);
-    snprintf(out, size, "%d:%02d  %.60s  %llu frames, %.1f MB, %llu dropped%s",
-             (int)(seconds / 60), (int)(seconds % 60), r->path,
-             (unsigned long long)s.written.frames, 1e-6 * (double)s.written.bytes,
-             (unsigned long long)s.dropped, recorder_has_failed(r) ? "  FAILED" : "");
+    snprintf(out, size, "%d:%02d  %.60s  %llu frames, %.1f MB, %llu dropped%s", (int)(seconds / 60),
+             (int)(seconds % 60), r->path, (unsigned long long)s.written.frames,
+             1e-6 * (double)s.written.bytes, (unsigned long long)s.dropped,
+             recorder_has_failed(r) ? "  FAILED" : "");
     return true;
 }
 

@@ -29,7 +29,8 @@ typedef struct rlf_window_choice {
     char source[RLF_WINDOW_SOURCE_SIZE]; /* as rlf_source_open takes it */
     char scene[RLF_WINDOW_SOURCE_SIZE];  /* file to play it with; "" = the default one */
     char text[160];                      /* what the window shows of it */
-    char picture[RLF_WINDOW_SOURCE_SIZE]; /* file of a small picture of it, PNG or JPEG; "" = none */
+    char
+        picture[RLF_WINDOW_SOURCE_SIZE]; /* file of a small picture of it, PNG or JPEG; "" = none */
 } rlf_window_choice;
 
 /* Lists what there is to choose: fills at most RLF_WINDOW_CHOICES_MAX, returns how many. */

@@ -143,7 +143,8 @@ static void run_switches(viewer *v, const viewer_commands *commands)
     if (commands->open_files && v->window.panel_width > 0) {
         viewer_panel_open_files(v->panel);
     } else if (commands->open_files) {
-        viewer_show_message(v, "the list of files is the panel's: M brings it, or drop a file here");
+        viewer_show_message(v,
+                            "the list of files is the panel's: M brings it, or drop a file here");
     }
     if (commands->next_end && v->stage.playback != NULL) {
         viewer_set_end(v,

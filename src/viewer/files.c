@@ -27,10 +27,9 @@ bool viewer_files_path(const viewer_files *files, const char *name, char out[VIE
 {
     const size_t end = strlen(files->folder);
     const bool has_slash = end > 0 && files->folder[end - 1] == '/';
-    const int length = name[0] == '\0'
-                           ? snprintf(out, VIEWER_FILES_PATH, "%s", files->folder)
-                           : snprintf(out, VIEWER_FILES_PATH, "%s%s%s", files->folder,
-                                      has_slash ? "" : "/", name);
+    const int length = name[0] == '\0' ? snprintf(out, VIEWER_FILES_PATH, "%s", files->folder)
+                                       : snprintf(out, VIEWER_FILES_PATH, "%s%s%s", files->folder,
+                                                  has_slash ? "" : "/", name);
     return length > 0 && length < VIEWER_FILES_PATH;
 }
 

@@ -59,16 +59,18 @@ void panel_note(const char *text);
  */
 bool panel_context_open(GLFWwindow *window);
 void panel_context_close(void);
-/* Typeface, colours and sizes for the window as it is now, and with the letters those pictures, NULL = none. Between the back ends' new frame and
- * imgui's. */
-void panel_set_style(panel_style *style, GLFWwindow *window, bool is_light, panel_pictures *pictures);
+/* Typeface, colours and sizes for the window as it is now, and with the letters those pictures,
+ * NULL = none. Between the back ends' new frame and imgui's. */
+void panel_set_style(panel_style *style, GLFWwindow *window, bool is_light,
+                     panel_pictures *pictures);
 /* A name at the left; the control that follows takes the rest of the line. `tip` is shown under the
  * mouse; NULL = none. */
 void panel_label(const char *name, const char *tip);
 /* Of what was drawn last. */
 void panel_tip(const char *text);
 
-/* panel_pictures.cpp: reads those that are there; a style of scale 0 then takes them into its texture. */
+/* panel_pictures.cpp: reads those that are there; a style of scale 0 then takes them into its
+ * texture. */
 void panel_pictures_load(panel_pictures *p, const rlf_window_choice *choices, int count);
 void panel_pictures_free(panel_pictures *p);
 /* After the typeface was chosen, before its texture is made. */
