@@ -308,6 +308,7 @@ rlf_result run_window(const run_options *o, session *s, run_output *output)
     viewer.monitor = o->window.monitor;
     viewer.fills = o->window.fills;
     viewer.is_kiosk = o->window.is_kiosk;
+    viewer.keeps_size = o->output.video_path != NULL || o->output.picture_folder != NULL;
     viewer.keeps_view = o->session.projector_path != NULL;
     viewer.corners_path = name_corners(o->window.monitor);
     set_callbacks(&viewer, &stage);

@@ -130,6 +130,8 @@ typedef struct rlf_window_def {
     bool is_kiosk;   /* nobody attends it: full screen without a pointer, that comes back with
                         a monitor; a source that ends, fails or gives nothing for 10 s is
                         opened again by on_open; errors go to rlf_log alone. Default false */
+    bool keeps_size; /* of the picture, which the soft renderer halves where the machine cannot keep
+                        the source's rate; for what is written. Default false */
     bool keeps_view; /* keys and panel do not change it, as of a projector; default false */
     const char *corners_path; /* file to keep the picture's corners in; NULL = they are not kept */
     int32_t monitor;          /* from 1; 0 = the one that the window is on */

@@ -26,6 +26,18 @@ rlf_compositor_def rlf_pipeline_get_compositor_def(const rlf_pipeline *p)
     return RLF_ASSERT(p != NULL) ? p->compositor_def : (rlf_compositor_def){.cookie = 0};
 }
 
+/* On failure the old renderer goes on. */
+static rlf_result draw_by(rlf_pipeline *p, const rlf_compositor_def *def)
+{
+    rlf_compositor *fresh = NULL;
+    const rlf_result result = rlf_compositor_create_soft(def, &fresh);
+    if (result != RLF_OK) {
+        return result;
+    }
+    p->compositor_def = *def;
+    return rlf_pipeline_set_compositor(p, fresh);
+}
+
 /* What the camera's picture tells, of light and silhouettes, is not where the projector looks. */
 static rlf_compositor_def seen_from(const rlf_compositor_def *from, const rlf_camera *projector,
                                     const rlf_pose *T_projector_depth)
@@ -46,14 +58,19 @@ rlf_result rlf_pipeline_set_projector(rlf_pipeline *p, const rlf_camera *project
     if (!RLF_ASSERT(p != NULL && projector != NULL && T_projector_depth != NULL)) {
         return RLF_ERROR_INVALID;
     }
-    rlf_compositor *fresh = NULL;
     const rlf_compositor_def def = seen_from(&p->compositor_def, projector, T_projector_depth);
-    const rlf_result result = rlf_compositor_create_soft(&def, &fresh);
-    if (result == RLF_OK) {
-        p->compositor_def = def;
-        return rlf_pipeline_set_compositor(p, fresh);
+    return draw_by(p, &def);
+}
+
+rlf_result rlf_pipeline_set_picture_size(rlf_pipeline *p, int32_t width, int32_t height)
+{
+    if (!RLF_ASSERT(p != NULL)) {
+        return RLF_ERROR_INVALID;
     }
-    return result;
+    rlf_compositor_def def = p->compositor_def;
+    def.width = width;
+    def.height = height;
+    return draw_by(p, &def);
 }
 
 void rlf_pipeline_set_view(rlf_pipeline *p, rlf_view view)

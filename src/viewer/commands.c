@@ -51,6 +51,7 @@ static void nudge(viewer *v, const viewer_commands *commands)
 static void toggle_place(viewer *v)
 {
     char text[VIEWER_PLACE_TEXT];
+    viewer_draw_whole(v); /* points are picked in the camera's own pixels */
     if (viewer_place_toggle(&v->place, v->stage.pipeline, text)) {
         viewer_set_view(v, v->place.is_on ? RLF_VIEW_KNOWN : RLF_VIEW_CAMERA);
     }

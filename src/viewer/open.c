@@ -26,7 +26,8 @@ static void begin_stage(viewer *v, const rlf_window_stage *stage)
     v->grab.is_on = false;
     v->place.is_on = false;
     v->undo.count = 0; /* what they borrow is gone */
-    v->kiosk.is_lost = false;
+    v->kiosk.is_lost = v->is_half = false;
+    v->slow_frames = 0;
     v->due_ns = rlf_clock_ns();
     v->last_step_ns = 0;
     viewer_choose_renderer(v);

@@ -86,6 +86,9 @@ typedef struct viewer {
     viewer_panel *panel; /* NULL = none */
     bool shows_panel;
     int32_t extra_presents; /* the panel shows what it was told one picture later */
+    double present_ms;      /* cost of putting the picture into the window, smoothed */
+    int32_t slow_frames;    /* in a row that took longer than the source's period */
+    bool is_half;           /* the picture is drawn at half its size */
     double panel_ms;        /* cost of the last picture's */
     viewer_message messages[VIEWER_MESSAGES_MAX]; /* the newest first */
     int32_t message_count;
@@ -171,6 +174,11 @@ bool viewer_kiosk_is_on(const viewer *v);
 void viewer_kiosk_lose(viewer *v, const char *why);
 void viewer_kiosk_note_silence(viewer *v);
 void viewer_kiosk_try(viewer *v, int64_t now_ns);
+
+/* pace.c: after each frame: draws the picture at half its size where the machine cannot keep the
+ * source's rate; and at its own again. */
+void viewer_keep_pace(viewer *v);
+void viewer_draw_whole(viewer *v);
 
 /* output.c: how the picture fills the window, and the marks of corners that are moved. */
 void viewer_toggle_fill(viewer *v);

@@ -130,8 +130,10 @@ static rlf_result step(viewer *v)
     viewer_note_plot(v);
     v->frames_done++;
     viewer_record_frame(v);
-    return v->options->on_frame != NULL ? v->options->on_frame(v->options->context, &v->frame)
-                                        : RLF_OK;
+    result = v->options->on_frame != NULL ? v->options->on_frame(v->options->context, &v->frame)
+                                          : RLF_OK;
+    viewer_keep_pace(v);
+    return result;
 }
 
 static rlf_result redraw(viewer *v)
@@ -177,12 +179,14 @@ static void present(viewer *v)
     if (width < 1 || height < 1 || window_width < 1 || v->frame.render.image.data == NULL) {
         return;
     }
+    const int64_t before = rlf_clock_ns();
     const int32_t shown = (int32_t)((int64_t)width * area_width / window_width);
     viewer_place_draw(&v->place, &v->frame.render.image);
     rlf_gl_presenter_set_mirror(v->presenter, v->is_mirrored);
     rlf_gl_presenter_set_place(v->presenter, v->fills,
                                v->corners.is_askew ? &v->corners.map : NULL);
     rlf_gl_presenter_draw(v->presenter, &v->frame.render.image, shown, height);
+    smooth(&v->present_ms, 1e-6 * (double)(rlf_clock_ns() - before), v->present_ms == 0.0);
     viewer_draw_overlay(v, shown, height);
     viewer_draw_corners(v, shown, height);
     draw_panel(v);

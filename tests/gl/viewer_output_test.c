@@ -5,12 +5,14 @@
 #include "relief/window.h"
 #include "test.h"
 #include "viewer/corners.h"
+#include "viewer/files.h"
 #include "viewer/mouse.h"
 
 #include "viewer_drive.h"
 
-#include <math.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 /* ---- corners -------------------------------------------------------------------------------- */
 
@@ -92,6 +94,42 @@ static void test_pick(void **state)
     assert_true(viewer_fit_pick(&fit, 400 * 0.9 - 0.01, 400 * 0.2 + 0.01, &u, &v));
     assert_true(u > 398.5 && v < 0.5); /* the upper right corner */
     assert_false(viewer_fit_pick(&fit, 4.0, 4.0, &u, &v));
+}
+
+/* Folders first, by name; hidden and other files are left out. */
+static void test_files(void **state)
+{
+    (void)state;
+    static viewer_files files;
+    char path[VIEWER_FILES_PATH];
+    (void)mkdir("list_of_files", 0777);
+    (void)mkdir("list_of_files/b", 0777);
+    const char *names[4] = {"list_of_files/z.glb", "list_of_files/a.obj", "list_of_files/c.txt",
+                            "list_of_files/.hidden.obj"};
+    for (int i = 0; i < 4; i++) {
+        FILE *file = fopen(names[i], "w");
+        assert_non_null(file);
+        (void)fclose(file);
+    }
+    assert_true(viewer_files_enter(&files, "", NULL)); /* the working folder */
+    assert_true(viewer_files_enter(&files, "list_of_files", ".glb .obj"));
+    assert_int_equal(files.count, 3);
+    assert_true(files.list[0].is_folder && strcmp(files.list[0].name, "b") == 0);
+    assert_string_equal(files.list[1].name, "a.obj");
+    assert_string_equal(files.list[2].name, "z.glb");
+    assert_true(viewer_files_path(&files, "a.obj", path));
+    assert_int_equal(access(path, R_OK), 0);
+    assert_false(viewer_files_enter(&files, "c.txt", NULL));
+    assert_int_equal(files.count, 3);
+    assert_true(viewer_files_enter(&files, "b", NULL));
+    assert_int_equal(files.count, 0);
+    assert_true(viewer_files_enter(&files, "..", NULL));
+    assert_int_equal(files.count, 4);
+    for (int i = 0; i < 4; i++) {
+        (void)remove(names[i]);
+    }
+    (void)rmdir("list_of_files/b");
+    (void)rmdir("list_of_files");
 }
 
 /* ---- presenter ------------------------------------------------------------------------------ */
@@ -307,15 +345,67 @@ static void test_kiosk(void **state)
     rlf_source_destroy(&s.source);
 }
 
+/* ---- pace ----------------------------------------------------------------------------------- */
+
+typedef struct hurried {
+    int64_t frames;
+    int32_t first_width, last_width, placing_width;
+} hurried;
+
+static rlf_result play_hurried(void *context, const rlf_pipeline_output *frame)
+{
+    hurried *s = context;
+    const int32_t width = frame->render.image.width;
+    s->frames++;
+    s->first_width = s->frames == 1 ? width : s->first_width;
+    s->last_width = s->frames == 50 ? width : s->last_width;
+    s->placing_width = width;
+    if (s->frames == 51) { /* placing needs the camera's own pixels */
+        press(GLFW_KEY_K);
+    }
+    return RLF_OK;
+}
+
+/* A thousand frames a second are more than any machine can draw. */
+static void test_pace(void **state)
+{
+    (void)state;
+    if (!has_display()) {
+        skip();
+    }
+    for (int keeps = 0; keeps < 2; keeps++) {
+        hurried s = {.frames = 0};
+        rlf_synthetic_def def = rlf_synthetic_def_default();
+        rlf_source *source = NULL;
+        def.enable_truth = false;
+        def.color_width = 1280;
+        def.color_height = 720;
+        assert_int_equal(rlf_synthetic_create(&def, &source), RLF_OK);
+        rlf_pipeline *pipeline = open_pipeline(source);
+        rlf_window_def options = rlf_window_def_default();
+        options.use_gl = false;
+        options.hides_panel = true;
+        options.keeps_size = keeps;
+        options.stage.frames_per_second = 1000.0;
+        options.frame_count = 53;
+        options.on_frame = play_hurried;
+        options.context = &s;
+        assert_int_equal(rlf_window_run(pipeline, &options), RLF_OK);
+        assert_int_equal(s.first_width, 1280);
+        assert_int_equal(s.last_width, keeps ? 1280 : 640);
+        assert_int_equal(s.placing_width, 1280);
+        rlf_pipeline_destroy(&pipeline);
+        rlf_source_destroy(&source);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_corners),
-        cmocka_unit_test(test_corners_are_kept),
-        cmocka_unit_test(test_pick),
-        cmocka_unit_test(test_presenter),
-        cmocka_unit_test(test_bodies_come_back),
-        cmocka_unit_test(test_kiosk),
+        cmocka_unit_test(test_corners),   cmocka_unit_test(test_corners_are_kept),
+        cmocka_unit_test(test_pick),      cmocka_unit_test(test_files),
+        cmocka_unit_test(test_presenter), cmocka_unit_test(test_bodies_come_back),
+        cmocka_unit_test(test_kiosk),     cmocka_unit_test(test_pace),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
