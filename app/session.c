@@ -220,6 +220,9 @@ rlf_result session_again(session *s, const session_options *options)
 
 rlf_result session_renew(session *s, const session_options *options)
 {
+    if (s->source == NULL) {
+        return rlf_fail(RLF_ERROR_UNSUPPORTED, "there is no source now, and it comes first");
+    }
     session fresh = *s;
     fresh.pipeline = NULL;
     memset(&fresh.scene, 0, sizeof(fresh.scene));

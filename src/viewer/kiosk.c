@@ -44,6 +44,9 @@ void viewer_kiosk_note_silence(viewer *v)
 void viewer_kiosk_try(viewer *v, int64_t now_ns)
 {
     kiosk *k = &v->kiosk;
+    if (k->is_lost) {
+        v->is_step_due = v->is_redraw_due = false; /* whatever keys ask for */
+    }
     if (!k->is_lost || now_ns < k->again_ns) {
         return;
     }

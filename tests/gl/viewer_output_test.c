@@ -288,9 +288,15 @@ static rlf_result open_again(void *context, rlf_window_opening what, const char 
     (void)text;
     assert_int_equal(what, RLF_WINDOW_OPEN_AGAIN);
     rlf_source_destroy(&s->source);
-    if (s->openings++ == 0) {
+    if (s->openings++ == 0) { /* keys do no harm while there is no source */
+        const int keys[] = {GLFW_KEY_N, GLFW_KEY_T, GLFW_KEY_DELETE, GLFW_KEY_U, GLFW_KEY_K,
+                            GLFW_KEY_3, GLFW_KEY_1, GLFW_KEY_P,      GLFW_KEY_K};
+        for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
+            press(keys[i]);
+        }
         return rlf_fail(RLF_ERROR_DEVICE, "camera: none is plugged in");
     }
+    press(GLFW_KEY_SPACE); /* N has paused it */
     rlf_pipeline *old = s->pipeline;
     s->source = open_room(5);
     s->pipeline = open_pipeline(s->source);
@@ -313,7 +319,6 @@ static rlf_result play_unattended(void *context, const rlf_pipeline_output *fram
         s->is_pointer_hidden = glfwGetInputMode(window(), GLFW_CURSOR) == GLFW_CURSOR_HIDDEN;
         on_monitor(monitor, GLFW_DISCONNECTED);
         assert_null(glfwGetWindowMonitor(window()));
-        press(GLFW_KEY_R); /* keys do no harm, also while there is no source */
     } else if (s->frames == 4) {
         s->is_full_again = glfwGetWindowMonitor(window()) != NULL;
     }
