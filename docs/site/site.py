@@ -216,6 +216,7 @@ def main():
     wrong = [f"{source}: no place in GROUPS of docs/site/site.py" for source in present if source not in listed]
     leads = {source: site.guide(source) for source in listed if os.path.exists(os.path.join(root, source))}
     site.guide("clips/table/README.md")
+    site.guide("clips/desk/README.md")
     site.reference()
     site.start(leads)
     here = os.path.dirname(os.path.abspath(__file__))

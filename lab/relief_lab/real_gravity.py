@@ -6,6 +6,8 @@ import sys
 
 import numpy as np
 
+import relief
+
 from . import clips, fit
 from .measures import NAN, percent
 
@@ -71,7 +73,8 @@ def off_turned(rig, frame, up, turn):
     plane = fit.find_plane(fit.Points(clips.raw_depth(frame), surface.rays, rig.noise))
     found, confidence = surface.find_up()
     real = clips.turn_matrix(*turned) @ up
-    return (angle_deg(found, real), angle_deg(plane[0] if plane else (0, -1, 0), real)), confidence > 0
+    is_sure = confidence >= relief.UP_SURE
+    return (angle_deg(found, real), angle_deg(plane[0] if plane else (0, -1, 0), real)), is_sure
 
 
 def row_of(part, key, title, relation, goal, values):

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 __version__: str
 reason_names: tuple[str, ...]
+UP_SURE: float
 view_names: tuple[str, ...]
 
 class Error(Exception): ...

@@ -211,7 +211,8 @@ void bind_surface(py::module_ &m)
         .def_property_readonly("regions", of(&regions_of), "Pieces of both layers.")
         .def_property_readonly("is_blind", of([](P p) { return p.s->is_blind; }),
                                "No depth, or hardly any.")
-        .def("find_up", of(&find_up), "(up, confidence): which way is up, and how sure, 0 to 1.");
+        .def("find_up", of(&find_up),
+             "(up, confidence): which way is up, and how sure, 0 to 1. Below UP_SURE it is a guess.");
     m.def("compute_normals", &compute_normals, py::arg("depth"), py::arg("ray_x"), py::arg("ray_y"),
           py::arg("method") = "inverse_depth",
           "(H, W, 3) float32 of a clean depth plane, towards the camera; 0 = none. method: "
@@ -221,4 +222,5 @@ void bind_surface(py::module_ &m)
         names.append(rlf_reason_name(static_cast<rlf_reason>(i)));
     }
     m.attr("reason_names") = py::tuple(names);
+    m.attr("UP_SURE") = RLF_UP_SURE;
 }

@@ -4,15 +4,17 @@
 #include <math.h>
 #include <string.h>
 
-#define NEWEST 0.15f       /* share of a picture in what is known */
-#define LEAST_SPOTS 24     /* of a brightness */
-#define FLAT 8             /* codes to the next pixels: a place that shows noise and no motion, */
-#define STEEP 20           /* and one that shows motion */
-#define MOVES 2.0f         /* the camera does when steep places change so many times as much, */
-#define MOVES_CODES 2.0f   /* and more */
-#define PER_MEDIAN 1.4826f /* sigma of a normal distribution over the median of its size */
-#define OUTLIER 4.0f       /* sigma: something that moved */
-#define MOST_BESIDE 0.6f   /* a blur of three pixels has no more */
+#define NEWEST 0.15f        /* share of a picture in what is known */
+#define LEAST_SPOTS 24      /* of a brightness */
+#define FLAT 8              /* codes to the other pixels: a place that shows noise and no edge */
+#define PER_MEDIAN 1.4826f  /* sigma of a normal distribution over the median of its size */
+#define PER_QUARTILE 3.1383 /* and over the value that a quarter of them are less than */
+#define STEPS_SLACK 1.5     /* for few spots */
+#define OUTLIER 4.0f        /* sigma: something that moved */
+#define RISES 1.07       /* of a variance, at most: motion adds to it, and nothing takes off it */
+#define RISES_LEAST 0.1  /* and so much, in square codes */
+#define MOVES 0.75       /* correlation of neighbours: more than any noise has */
+#define MOST_BESIDE 0.6f /* a blur of three pixels has no more */
 #define STEPS 32.0f
 
 enum { CHANGES = 64 }; /* codes that are told apart */
@@ -43,19 +45,25 @@ void grain_init(grain *g)
 
 /* ---- measuring ------------------------------------------------------------------------------ */
 
-/* How often a change is so large: of flat places by brightness and channel, of steep ones by green.
- */
+/* A spot's pixels: one, those to its right and below, and one so far to its right that their noise
+ * has nothing in common. What both share, a picture that moves or gets brighter, is no noise. */
+enum { HERE, RIGHT, BELOW, FAR, FAR_PIXELS = 4 };
+
+/* Of the flat spots of a brightness: how often two of their pixels changed so differently. */
 typedef struct sums {
-    int32_t flat[GRAIN_BINS][3][CHANGES], all[CHANGES], steep[CHANGES];
-    double square[3], beside[2], red_green;
+    int32_t far[3][CHANGES];          /* of a channel, from the pixel far to the right */
+    int32_t beside[2][CHANGES];       /* of green, from those next to it */
+    int32_t steps[3][CHANGES];        /* and how often the former differ so much in one picture */
+    double red, green, red_and_green; /* sums of squares of the former */
 } sums;
 
-static void read_spot(const rlf_image_rgba8 *image, int32_t x, int32_t y, uint8_t out[9])
+static void read_spot(const rlf_image_rgba8 *image, int32_t x, int32_t y, grain_spot *out)
 {
     const uint8_t *p = rlf_rgba8_row(image, y) + 4 * (ptrdiff_t)x;
-    memcpy(out, p, 3);
-    memcpy(out + 3, p + 4, 3);
-    memcpy(out + 6, p + image->stride, 3);
+    memcpy(out->rgb[HERE], p, 3);
+    memcpy(out->rgb[RIGHT], p + 4, 3);
+    memcpy(out->rgb[BELOW], p + image->stride, 3);
+    memcpy(out->rgb[FAR], p + 4 * (ptrdiff_t)FAR_PIXELS, 3);
 }
 
 static int32_t size_of(int32_t change)
@@ -64,50 +72,54 @@ static int32_t size_of(int32_t change)
     return size < CHANGES ? size : CHANGES - 1;
 }
 
-/* The largest step from a pixel to the next ones, of both pictures together, whose noise is less.
- */
-static int32_t step_at(const uint8_t last[9], const uint8_t now[9])
+/* The largest step from a pixel to the others, of both pictures together, whose noise is less. */
+static int32_t step_at(const grain_spot *last, const grain_spot *now)
 {
     int32_t most = 0;
-    for (int k = 3; k < 9; k++) {
-        const int32_t step = size_of((now[k] + last[k] - now[k % 3] - last[k % 3]) / 2);
-        most = step > most ? step : most;
+    for (int i = RIGHT; i < GRAIN_PIXELS; i++) {
+        for (int k = 0; k < 3; k++) {
+            const int32_t step = size_of(
+                (now->rgb[i][k] + last->rgb[i][k] - now->rgb[HERE][k] - last->rgb[HERE][k]) / 2);
+            most = step > most ? step : most;
+        }
     }
     return most;
 }
 
-static void add_spot(const grain *g, const uint8_t last[9], const uint8_t now[9], sums *out)
+/* How differently two pixels changed. */
+static int32_t change_of(const grain_spot *last, const grain_spot *now, int other, int k)
 {
-    int32_t d[9];
+    return now->rgb[HERE][k] - last->rgb[HERE][k] - now->rgb[other][k] + last->rgb[other][k];
+}
+
+static void add_spot(const grain *g, const grain_spot *last, const grain_spot *now, sums *out)
+{
     /* Of the mean: how bright one of them is and how much they differ goes together. */
-    const int32_t sum = now[0] + now[1] + now[2] + last[0] + last[1] + last[2];
+    const int32_t sum = now->rgb[0][0] + now->rgb[0][1] + now->rgb[0][2] + last->rgb[0][0] +
+                        last->rgb[0][1] + last->rgb[0][2];
     const int32_t bin = sum / (6 * 256 / GRAIN_BINS);
-    const int32_t step = step_at(last, now);
-    const float most = g->is_known ? OUTLIER * 1.5f * g->sigma[bin][1] + 2.0f : 24.0f;
-    bool is_noise = step <= FLAT + (int32_t)(2.0f * g->sigma[bin][1]);
-    out->steep[size_of(now[1] - last[1])] += step >= STEEP ? 1 : 0;
-    for (int k = 0; k < 9 && is_noise; k++) {
-        d[k] = now[k] - last[k];
-        if (k < 3) {
-            out->flat[bin][k][size_of(d[k])]++;
-        }
+    if (step_at(last, now) > FLAT + (int32_t)(2.0f * g->sigma[bin][1])) {
+        return;
     }
-    out->all[size_of(now[1] - last[1])] += is_noise ? 1 : 0;
-    for (int k = 0; k < 9 && is_noise; k++) {
-        is_noise = (float)size_of(d[k]) <= most;
+    sums *of = &out[bin];
+    int32_t far[3];
+    for (int k = 0; k < 3; k++) {
+        far[k] = change_of(last, now, FAR, k);
+        of->far[k][size_of(far[k])]++;
+        of->steps[k][size_of(now->rgb[HERE][k] - now->rgb[FAR][k])]++;
     }
-    if (is_noise) {
-        for (int k = 0; k < 3; k++) {
-            out->square[k] += d[k] * d[k];
-        }
-        out->beside[0] += d[1] * d[4];
-        out->beside[1] += d[1] * d[7];
-        out->red_green += d[0] * d[1];
+    of->beside[0][size_of(change_of(last, now, RIGHT, 1))]++;
+    of->beside[1][size_of(change_of(last, now, BELOW, 1))]++;
+    const float most = g->is_seen[bin] ? OUTLIER * 2.0f * g->sigma[bin][1] + 2.0f : 24.0f;
+    if ((float)size_of(far[0]) <= most && (float)size_of(far[1]) <= most) {
+        of->red += far[0] * far[0];
+        of->green += far[1] * far[1];
+        of->red_and_green += far[0] * far[1];
     }
 }
 
-/* A change of k codes was anything from k - 1/2 to k + 1/2. */
-static float median_of(const int32_t counts[CHANGES], int32_t *out_count)
+/* What `share` of all are less than: a change of k codes was anything from k - 1/2 to k + 1/2. */
+static float quantile_of(const int32_t counts[CHANGES], float share, int32_t *out_count)
 {
     int32_t all = 0;
     for (int32_t k = 0; k < CHANGES; k++) {
@@ -117,34 +129,36 @@ static float median_of(const int32_t counts[CHANGES], int32_t *out_count)
     float below = 0.0f;
     for (int32_t k = 0; k < CHANGES && all > 0; k++) {
         const float here = (float)counts[k];
-        if (below + here >= 0.5f * (float)all) {
+        if (below + here >= share * (float)all) {
             const float low = k > 0 ? (float)k - 0.5f : 0.0f;
-            return low + (k > 0 ? 1.0f : 0.5f) * (0.5f * (float)all - below) / here;
+            return low + (k > 0 ? 1.0f : 0.5f) * (share * (float)all - below) / here;
         }
         below += here;
     }
     return 0.0f;
 }
 
-/* Variance of a picture's noise, from changes between two, without what moved. */
-static double variance_of(const int32_t counts[CHANGES], float median)
+/* Variance of a picture's noise, without what moved: four noises are in a difference of changes. */
+static double variance_of(const int32_t counts[CHANGES], int32_t *out_count)
 {
-    const int32_t limit = (int32_t)(OUTLIER * PER_MEDIAN * median) + 2;
+    const int32_t limit =
+        (int32_t)(OUTLIER * PER_MEDIAN * quantile_of(counts, 0.5f, out_count)) + 2;
     double square = 0.0;
     double all = 0.0;
     for (int32_t k = 0; k < CHANGES && k <= limit; k++) {
         square += (double)counts[k] * k * k;
         all += counts[k];
     }
-    return all > 0.0 ? square / (2.0 * all) : 0.0;
+    return all > 0.0 ? square / (4.0 * all) : 0.0;
 }
 
-static bool is_still(const sums *s)
+/* At most so much: nothing takes noise off a flat place either, and the flattest show it. Motion
+ * adds nothing here, but texture does, so this alone would be too much. */
+static double most_variance(const int32_t steps[CHANGES])
 {
-    int32_t flat, steep;
-    const float noise = median_of(s->all, &flat);
-    const float motion = median_of(s->steep, &steep);
-    return flat >= LEAST_SPOTS && (steep < LEAST_SPOTS || motion <= MOVES * noise + MOVES_CODES);
+    int32_t count;
+    const double sigma = (double)quantile_of(steps, 0.25f, &count) * PER_QUARTILE;
+    return STEPS_SLACK * 0.5 * sigma * sigma;
 }
 
 static void approach(float *value, double now, bool is_known)
@@ -152,53 +166,92 @@ static void approach(float *value, double now, bool is_known)
     *value += (is_known ? NEWEST : 1.0f) * ((float)now - *value);
 }
 
-/* A brightness that is not seen is as noisy as the next darker one that is. */
-static void take_sums(grain *g, const sums *s)
+/* What a picture tells of the noise, over all brightnesses. */
+typedef struct pool {
+    double far, beside[2], red, green, red_and_green;
+} pool;
+
+/* Nothing when too few spots show it, or when neighbours change too much alike: something moves. */
+static void take_brightness(grain *g, int32_t bin, const sums *s, pool *out)
 {
-    int32_t from = -1;
-    for (int32_t bin = 0; bin < GRAIN_BINS; bin++) {
-        int32_t count = 0;
-        for (int k = 0; k < 3; k++) {
-            const float median = median_of(s->flat[bin][k], &count);
-            float variance = g->sigma[bin][k] * g->sigma[bin][k];
-            if (count >= LEAST_SPOTS) {
-                approach(&variance, variance_of(s->flat[bin][k], median), g->is_known);
-                g->sigma[bin][k] = sqrtf(variance);
-            } else if (from >= 0) {
-                g->sigma[bin][k] = g->sigma[from][k];
-            }
-        }
-        for (int32_t b = 0; count >= LEAST_SPOTS && from < 0 && b < bin; b++) {
-            memcpy(g->sigma[b], g->sigma[bin], sizeof(g->sigma[b]));
-        }
-        from = count >= LEAST_SPOTS ? bin : from;
+    int32_t count;
+    double far[3], beside[2];
+    for (int k = 0; k < 3; k++) {
+        far[k] = rlf_min(variance_of(s->far[k], &count), most_variance(s->steps[k]));
     }
-    if (s->square[1] > 0.0 && s->square[0] > 0.0) {
-        approach(&g->beside[0], s->beside[0] / s->square[1], g->is_known);
-        approach(&g->beside[1], s->beside[1] / s->square[1], g->is_known);
-        approach(&g->common, s->red_green / sqrt(s->square[0] * s->square[1]), g->is_known);
+    for (int k = 0; k < 2; k++) {
+        beside[k] = variance_of(s->beside[k], &count);
     }
-    g->is_known = g->is_known || from >= 0;
+    const double least = (1.0 - MOVES) * far[1];
+    if (count < LEAST_SPOTS || beside[0] < least || beside[1] < least) {
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        float variance = g->sigma[bin][k] * g->sigma[bin][k];
+        const double most = RISES * variance + RISES_LEAST;
+        approach(&variance, g->is_seen[bin] ? rlf_min(far[k], most) : far[k], g->is_seen[bin]);
+        g->sigma[bin][k] = sqrtf(variance);
+    }
+    g->is_seen[bin] = true;
+    out->far += count * far[1];
+    out->beside[0] += count * beside[0];
+    out->beside[1] += count * beside[1];
+    out->red += s->red;
+    out->green += s->green;
+    out->red_and_green += s->red_and_green;
 }
 
-/* Spots on a lattice; `only_read` when there is no picture before. */
-static void look(grain *g, const rlf_image_rgba8 *image, bool only_read, sums *out)
+/* A brightness that was not seen yet is as noisy as the next darker one that was, or else as the
+ * darkest of these. */
+static void spread(grain *g)
+{
+    int32_t from = 0;
+    while (from < GRAIN_BINS && !g->is_seen[from]) {
+        from++;
+    }
+    for (int32_t bin = 0; bin < GRAIN_BINS && from < GRAIN_BINS; bin++) {
+        from = g->is_seen[bin] ? bin : from;
+        memcpy(g->sigma[bin], g->sigma[from], sizeof(g->sigma[bin]));
+    }
+}
+
+static void take_sums(grain *g, const sums s[GRAIN_BINS])
+{
+    pool p = {0};
+    for (int32_t bin = 0; bin < GRAIN_BINS; bin++) {
+        take_brightness(g, bin, &s[bin], &p);
+    }
+    spread(g);
+    if (p.far > 0.0 && p.red > 0.0 && p.green > 0.0) {
+        approach(&g->beside[0], 1.0 - p.beside[0] / p.far, g->is_known);
+        approach(&g->beside[1], 1.0 - p.beside[1] / p.far, g->is_known);
+        approach(&g->common, p.red_and_green / sqrt(p.red * p.green), g->is_known);
+        g->is_known = true;
+    }
+}
+
+/* Spots on a lattice; `only_read` when there is no picture before. False when it is the last
+ * picture again, as a camera gives whose colour is slower than its depth. */
+static bool look(grain *g, const rlf_image_rgba8 *image, bool only_read, sums *out)
 {
     int32_t step = 4;
     while ((image->width / step + 1) * (image->height / step + 1) > GRAIN_SPOTS) {
         step++;
     }
+    bool is_other = false;
     int32_t i = 0;
     for (int32_t y = step / 2; y + 1 < image->height; y += step) {
-        for (int32_t x = step / 2; x + 1 < image->width; x += step, i++) {
-            uint8_t now[9];
-            read_spot(image, x, y, now);
+        for (int32_t x = step / 2; x + FAR_PIXELS < image->width; x += step, i++) {
+            grain_spot now;
+            read_spot(image, x, y, &now);
             if (!only_read) {
-                add_spot(g, g->last[i], now, out);
+                add_spot(g, &g->last[i], &now, out);
             }
-            memcpy(g->last[i], now, sizeof(now));
+            is_other = is_other || memcmp(&g->last[i], &now, sizeof(now)) != 0;
+            g->last[i] = now;
         }
     }
+    return is_other;
 }
 
 /* ---- the tile ------------------------------------------------------------------------------- */
@@ -264,6 +317,7 @@ void grain_update(grain *g, const rlf_frame *frame)
     const rlf_image_rgba8 *image = &frame->color;
     if (image->data == NULL) {
         memset(g->sigma, 0, sizeof(g->sigma));
+        memset(g->is_seen, 0, sizeof(g->is_seen));
         g->is_known = false;
         g->width = 0;
         return;
@@ -272,11 +326,10 @@ void grain_update(grain *g, const rlf_frame *frame)
     if (!is_first && frame->sequence == g->sequence) {
         return;
     }
-    sums s;
-    memset(&s, 0, sizeof(s));
-    look(g, image, is_first, &s);
-    if (!is_first && is_still(&s)) {
-        take_sums(g, &s);
+    sums s[GRAIN_BINS];
+    memset(s, 0, sizeof(s));
+    if (look(g, image, is_first, s) && !is_first) {
+        take_sums(g, s);
     }
     g->sequence = frame->sequence;
     g->width = image->width;

@@ -332,6 +332,75 @@ static void rests_on_a_noisy_floor(void **state)
 }
 
 /* A camera that is mounted askew: the grid's frame is not the world's. */
+#define ROUND_SIDES 7
+#define ROUND_RINGS 5
+
+/* A toy with a round bottom that stands on seven vertices, none of them quite as low as another.
+ * Convex: each ring's faces lean outwards. */
+static const rlf_hull *round_bottom(void)
+{
+    static const double rings[ROUND_RINGS][2] = {
+        {0.0404, 0.022}, {0.0374, 0.034}, {0.01, 0.045}, {-0.02, 0.04}, {-0.05, 0.015}};
+    static rlf_vec3 vertices[ROUND_RINGS * ROUND_SIDES];
+    static int32_t triangles[6 * ROUND_RINGS * ROUND_SIDES];
+    static rlf_hull hull;
+    int32_t n = 0;
+    for (int r = 0; r < ROUND_RINGS; r++) {
+        for (int s = 0; s < ROUND_SIDES; s++) {
+            const int32_t a = r * ROUND_SIDES + s, b = r * ROUND_SIDES + (s + 1) % ROUND_SIDES;
+            const int32_t side[6] = {a, b, a + ROUND_SIDES, b, b + ROUND_SIDES, a + ROUND_SIDES};
+            const double turn = 2 * RLF_PI * s / ROUND_SIDES;
+            const double low = r == 0 ? 0.0002 * (s * 3 % ROUND_SIDES - 3) : 0.0;
+            vertices[a] =
+                rlf_vec3_make(rings[r][1] * cos(turn), rings[r][0] + low, rings[r][1] * sin(turn));
+            for (int k = 0; k < 6 && r + 1 < ROUND_RINGS; k++) {
+                triangles[n++] = side[k];
+            }
+        }
+    }
+    for (int s = 1; s + 1 < ROUND_SIDES; s++) {
+        const int32_t last = (ROUND_RINGS - 1) * ROUND_SIDES;
+        const int32_t caps[6] = {0, s + 1, s, last, last + s, last + s + 1};
+        for (int k = 0; k < 6; k++) {
+            triangles[n++] = caps[k];
+        }
+    }
+    hull = (rlf_hull){vertices, ROUND_RINGS * ROUND_SIDES, triangles, n / 3};
+    return &hull;
+}
+
+/* A body whose bottom is round, on a floor that is rough but never changes, stops rocking. */
+static void a_round_bottom_comes_to_rest(void **state)
+{
+    (void)state;
+    set_floor(1.0);
+    uint64_t seed = 5;
+    for (int i = 250 * GRID_W; i < GRID_W * GRID_H; i++) {
+        fixture->planes[2][i] += (float)(0.001 * gauss(&seed));
+    }
+    int awake = 0;
+    for (int k = 0; k < 12; k++) {
+        rlf_world *world = make_world(rlf_vec3_make(0, 9.81, 0));
+        rlf_body_def def = rlf_body_def_default();
+        def.shape.type = RLF_SHAPE_HULL;
+        def.shape.hull = round_bottom();
+        def.mass = 0.05;
+        def.friction = 0.8;
+        def.restitution = 0.1;
+        def.position = rlf_vec3_make(0.05 * k - 0.3, 0.95, 1.9);
+        def.orientation = rlf_quat_from_rotation_vector(rlf_vec3_make(0.1, 0.5 * k, 0.05));
+        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+        for (int frame = 0; frame < 120; frame++) {
+            fixture->grid.time_ns++;
+            rlf_world_advance(world, &fixture->grid, 1.0 / 30);
+        }
+        awake += !first(world)->is_asleep;
+        rlf_world_destroy(&world);
+    }
+    print_message("round bottoms on a rough floor: %d of 12 awake after 4 s\n", awake);
+    assert_int_equal(awake, 0);
+}
+
 static void rests_under_a_tilted_camera(void **state)
 {
     (void)state;
@@ -387,6 +456,7 @@ int main(void)
         cmocka_unit_test(numbered_floor_goes),
         cmocka_unit_test(missing_pixels),
         cmocka_unit_test(rests_on_a_noisy_floor),
+        cmocka_unit_test(a_round_bottom_comes_to_rest),
         cmocka_unit_test(rests_under_a_tilted_camera),
         cmocka_unit_test(comes_out_of_the_wall),
     };

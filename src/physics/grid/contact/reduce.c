@@ -31,19 +31,21 @@ static rlf_vec3 along_face(const grid_job *job, int32_t i, int32_t k, rlf_vec3 n
     return rlf_mad(d, normal, -rlf_dot(d, normal));
 }
 
-/* Over the face, metres; 0 below it. */
-static double height_of(const grid_job *job, int32_t i)
+/* How much farther out a hit must be for its height over the face, metres: what touches only after
+ * a tilt by more than 6 degrees carries nothing yet. A body with a round bottom rocked for ever on
+ * four places of its rim. */
+static double out_for_height(const grid_job *job, int32_t i)
 {
-    return rlf_max(0.0, job->hits[i].separation);
+    return 10.0 * rlf_max(0.0, job->hits[i].separation);
 }
 
 /* How much choosing hit i widens the support that `chosen` gives along the face, metres: from a
  * point, from a line, then on the line's other side. What is higher over the face touches later, or
- * never: it must be so much farther out. */
+ * never. */
 static double spread(const grid_job *job, const int32_t *chosen, int32_t count, int32_t i,
                      rlf_vec3 normal)
 {
-    double height = height_of(job, i) - height_of(job, chosen[0]);
+    double height = out_for_height(job, i) - out_for_height(job, chosen[0]);
     rlf_vec3 d = along_face(job, i, chosen[0], normal);
     if (count == 1) {
         return rlf_length(d) - height;
