@@ -152,8 +152,8 @@ static rlf_result open_source(run_stage *stage, const char *text)
 static rlf_result open_again(run_stage *stage)
 {
     stage->output->recorder = NULL;
-    const rlf_result result = session_again(stage->session, &stage->options.session);
     stage->options.session.record.path = NULL;
+    const rlf_result result = session_again(stage->session, &stage->options.session);
     stage->output->recorder = stage->session->recorder;
     return result;
 }
