@@ -54,6 +54,8 @@ static const struct {
                         RLF_GET_PART("libwebsockets-dev", DEFAULT, "RELIEF_WITH_WEBSOCKET"),
                         HAS(RLF_HAVE_WEBSOCKET)},
     [PART_OSC] = {"OSC", RLF_GET_PART("liblo-dev", DEFAULT, "RELIEF_WITH_OSC"), HAS(RLF_HAVE_OSC)},
+    [PART_ROS2] = {"ROS 2", RLF_GET_PART("cyclonedds-dev", ALL, "RELIEF_WITH_ROS2"),
+                   HAS(RLF_HAVE_ROS2)},
     [PART_OPENCV] = {"calibrate", RLF_GET_PART("libopencv-calib3d-dev", ALL, "RELIEF_WITH_OPENCV"),
                      HAS(RLF_HAVE_OPENCV)},
 };

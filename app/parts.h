@@ -19,6 +19,7 @@ typedef enum part {
     PART_FREENECT2,
     PART_WEBSOCKET,
     PART_OSC,
+    PART_ROS2,
     PART_OPENCV,
     PART_COUNT
 } part;

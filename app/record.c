@@ -7,9 +7,12 @@
 #include <getopt.h>
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #define PROGRESS_INTERVAL_NS 200000000
+/* Longer pauses within a recording are not waited for. */
+#define PAUSE_MAX_NS 1000000000
 
 typedef struct record_options {
     const char *source;
@@ -22,12 +25,14 @@ typedef struct record_options {
 static void print_help(void)
 {
     printf("usage: relief record SOURCE FILE.mcap [OPTIONS]\n"
-           "       relief record SOURCE FOLDER/   [OPTIONS]\n\n"
+           "       relief record SOURCE FOLDER/   [OPTIONS]\n"
+           "       relief record SOURCE ros2:/CAMERA  [OPTIONS]\n\n"
            "Records a camera, or turns a recording into another kind. FILE.mcap has ROS 2\n"
            "messages that any MCAP program reads; FOLDER/ (with the slash, or a folder that is\n"
            "there) has the TUM layout: depth.txt, rgb.txt, camera.json, pictures. Depth is kept\n"
            "bit by bit. Ctrl-C ends the recording and closes the file properly. After a crash or\n"
-           "a power cut at most the last second is missing.\n\n"
+           "a power cut at most the last second is missing. ros2:/CAMERA keeps nothing: other\n"
+           "programs and machines see the camera live, with ?profile=lan and ?domain=N.\n\n"
            "  --frames N            stop after N frames\n"
            "  --seconds N           stop after N seconds\n"
            "  --codec NAME          of depth in FILE.mcap: rvl (default) or png\n"
@@ -67,8 +72,8 @@ static int parse(int argc, char **argv, record_options *o)
         return status;
     }
     if (argc - optind != 2) {
-        return command_usage("record", "needs a SOURCE and where to record it: FILE.mcap or "
-                                       "FOLDER/");
+        return command_usage("record", "needs a SOURCE and where to record it: FILE.mcap, "
+                                       "FOLDER/ or ros2:/CAMERA");
     }
     o->source = argv[optind];
     if (!recorder_take_path(argv[optind + 1], &o->recorder)) {
@@ -83,6 +88,8 @@ static int parse(int argc, char **argv, record_options *o)
 typedef struct progress {
     int64_t start_ns, shown_ns;
     int64_t frames, total; /* total -1 = not known */
+    bool is_paced;
+    int64_t time_ns, due_ns; /* of the last frame: its own time, and when it was due */
 } progress;
 
 static void show_progress(progress *p, recorder *r)
@@ -122,6 +129,21 @@ static int64_t total_of(const record_options *o, const rlf_source_info *info)
     return o->frames >= 0 && (total < 0 || o->frames < total) ? o->frames : total;
 }
 
+/* To who looks on, frames of a file go when they are due. */
+static void wait_until_due(progress *p, int64_t time_ns)
+{
+    const int64_t now_ns = rlf_clock_ns();
+    const int64_t wait_ns = p->due_ns + (time_ns - p->time_ns) - now_ns;
+    const bool is_on = p->frames > 0 && wait_ns < PAUSE_MAX_NS && wait_ns > -PAUSE_MAX_NS;
+    p->due_ns = is_on ? now_ns + wait_ns : now_ns;
+    p->time_ns = time_ns;
+    if (is_on && wait_ns > 0) {
+        const struct timespec rest = {.tv_sec = (time_t)(wait_ns / 1000000000),
+                                      .tv_nsec = (long)(wait_ns % 1000000000)};
+        (void)nanosleep(&rest, NULL); /* Ctrl-C ends it */
+    }
+}
+
 static rlf_result copy_frames(const record_options *o, rlf_source *source, recorder *r, progress *p)
 {
     rlf_result result = RLF_OK;
@@ -133,6 +155,9 @@ static rlf_result copy_frames(const record_options *o, rlf_source *source, recor
             break;
         }
         if (result == RLF_OK) {
+            if (p->is_paced) {
+                wait_until_due(p, frame.time_ns);
+            }
             first_ns = p->frames == 0 ? frame.time_ns : first_ns;
             p->frames++;
             if (is_done(o, p, &frame, first_ns)) {
@@ -168,7 +193,9 @@ static int record(const record_options *o, rlf_source **source)
 {
     recorder *r = NULL;
     const rlf_source_info *info = rlf_source_get_info(*source);
-    progress p = {.start_ns = rlf_clock_ns(), .total = total_of(o, info)};
+    progress p = {.start_ns = rlf_clock_ns(),
+                  .total = total_of(o, info),
+                  .is_paced = !info->is_live && strncmp(o->recorder.path, "ros2:", 5) == 0};
     rlf_result result = recorder_create(&o->recorder, info, &r);
     if (result == RLF_ERROR_INVALID) { /* what is read */
         return command_usage("record", "%s", rlf_error_text());

@@ -51,7 +51,8 @@ bool recorder_take_path(const char *text, void *out)
     const bool is_there = stat(text, &status) == 0 && S_ISDIR(status.st_mode);
     const bool is_folder = length > 0 && text[length - 1] == '/';
     ((recorder_options *)out)->path = text;
-    return is_there || is_folder || output_name_has(text, ".mcap");
+    return is_there || is_folder || output_name_has(text, ".mcap") ||
+           strncmp(text, "ros2:/", 6) == 0;
 }
 
 bool recorder_take_codec(const char *text, void *out)

@@ -36,8 +36,8 @@ recorder_options recorder_options_default(void);
         ROW_CHOICE("lossless", (options), recorder_take_color, "use color"),                       \
         ROW_CHOICE("compression", (options), recorder_take_compression, "use zstd, lz4 or none")
 
-/* "FILE.mcap", or "FOLDER/". `choices` of an option that takes one. */
-#define RECORDER_PATH "end the name in .mcap, or in / for a folder"
+/* "FILE.mcap", "FOLDER/" or "ros2:/CAMERA". `choices` of an option that takes one. */
+#define RECORDER_PATH "end the name in .mcap, or in / for a folder, or give ros2:/CAMERA"
 bool recorder_take_path(const char *text, void *out);
 bool recorder_take_codec(const char *text, void *out);
 bool recorder_take_color(const char *text, void *out);

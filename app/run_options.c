@@ -35,7 +35,10 @@ static void print_publish_help(void)
            "                        osc:[HOST:]PORT; on this machine unless HOST says more; up to\n"
            "                        4 times. Keys: every=N (poses of each N-th frame), of osc\n"
            "                        listen=[HOST:]PORT (for commands), of ws origin=URL (a web\n"
-           "                        page that may connect). See docs/events.md\n");
+           "                        page that may connect). See docs/events.md\n"
+           "                        Or ros2:/NAME: frames, picture, points, foreground, bodies\n"
+           "                        and contacts below that name, for ROS 2; keys: profile\n"
+           "                        (local or lan), domain=N. See docs/ros2.md\n");
 }
 
 static void print_camera_help(void)
@@ -426,6 +429,10 @@ static int read_options(int argc, char **argv, run_options *o)
         ROW_CHOICE("listen", &o->publish, publish_take_listen, "give [HOST:]PORT, of osc alone"),
         ROW_CHOICE("origin", &o->publish, publish_take_origin,
                    "give http://HOST:PORT of the page, of ws alone"),
+        ROW_CHOICE("profile", &o->publish, publish_take_profile,
+                   "use local, lan or a file, of ros2 alone"),
+        ROW_CHOICE("domain", &o->publish, publish_take_domain,
+                   "use a number from 0 to 232, of ros2 alone"),
         {0},
     };
     const option_def map_keys[] = {MAP_KEYS(o), {0}};

@@ -1,8 +1,9 @@
-/* `--publish`: "ws:PORT", "osc:HOST:PORT" and their keys. */
+/* `--publish`: "ws:PORT", "osc:HOST:PORT", "ros2:/NAME" and their keys. */
 #include "publish/inside.h"
 
 #include "command.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #define LOOPBACK "127.0.0.1"
@@ -33,6 +34,14 @@ bool publish_take(const char *text, void *list)
                          .listen_port = -1,
                          .every = 1,
                          .is_osc = strncmp(text, "osc:", 4) == 0};
+    if (strncmp(text, "ros2:/", 6) == 0) {
+        const bool has_room = all->count < PUBLISH_MAX && strlen(text) < sizeof a.ros2 / 2;
+        (void)snprintf(a.ros2, sizeof a.ros2, "%s", text);
+        if (has_room) {
+            all->items[all->count++] = a;
+        }
+        return has_room;
+    }
     const char *place = strchr(text, ':');
     const bool is_known = a.is_osc || strncmp(text, "ws:", 3) == 0;
     if (!is_known || all->count == PUBLISH_MAX ||
@@ -55,7 +64,7 @@ bool publish_take_every(const char *text, void *list)
     int64_t number = 0;
     const bool is_good = command_parse_int(text, 1, 1000, &number);
     last(list)->every = (int32_t)number;
-    return is_good;
+    return is_good && last(list)->ros2[0] == '\0';
 }
 
 bool publish_take_listen(const char *text, void *list)
@@ -68,7 +77,29 @@ bool publish_take_origin(const char *text, void *list)
 {
     publish_address *a = last(list);
     a->origin = text;
-    return !a->is_osc && text[0] != '\0';
+    return !a->is_osc && a->ros2[0] == '\0' && text[0] != '\0';
+}
+
+/* What follows the name: the library reads it. */
+static bool add_ros2_key(publish_address *a, const char *key, const char *text)
+{
+    const size_t length = strlen(a->ros2);
+    if (length == 0) {
+        return false;
+    }
+    const int got = snprintf(a->ros2 + length, sizeof a->ros2 - length, "%c%s=%s",
+                             strchr(a->ros2, '?') != NULL ? '&' : '?', key, text);
+    return got > 0 && (size_t)got < sizeof a->ros2 - length;
+}
+
+bool publish_take_profile(const char *text, void *list)
+{
+    return add_ros2_key(last(list), "profile", text);
+}
+
+bool publish_take_domain(const char *text, void *list)
+{
+    return add_ros2_key(last(list), "domain", text);
 }
 
 /* ---- origins --------------------------------------------------------------------------------- */

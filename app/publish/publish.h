@@ -1,5 +1,6 @@
 /* Events for other programs while a run goes on: contacts, gestures, poses and regions out; bodies,
  * gravity, scenes and recording in. By WebSocket (JSON) and by OSC; docs/events.md has the schema.
+ * And pictures, depth and bodies by ROS 2, which takes no commands: docs/ros2.md.
  *
  * The frame loop copies what goes out and takes what came in, and waits for nobody: a thread for
  * each address does the rest. Who reads too slowly loses frames, which are counted. */
@@ -13,6 +14,7 @@
 
 #define PUBLISH_MAX 4 /* addresses of one run */
 #define PUBLISH_HOST 64
+#define PUBLISH_ROS2 320
 
 typedef struct publish_address {
     bool is_osc;                    /* else WebSocket */
@@ -22,6 +24,7 @@ typedef struct publish_address {
     int32_t listen_port;            /* -1 = OSC takes no commands; 0 = a free one */
     int32_t every;                  /* poses of every N-th frame; contacts and gestures always */
     const char *origin;             /* of one more web page that may connect; NULL = none */
+    char ros2[PUBLISH_ROS2];        /* ROS 2: "ros2:/relief?profile=lan"; "" = another kind */
 } publish_address;
 
 typedef struct publish_list {
@@ -31,11 +34,13 @@ typedef struct publish_list {
 
 /* `take` of the option and of its keys, for the address given last. */
 #define PUBLISH_CHOICES                                                                            \
-    "give ws:PORT or osc:PORT, or osc:HOST:PORT as in osc:192.168.1.7:9000; up to 4 of them"
+    "give ws:PORT, osc:PORT, osc:HOST:PORT as in osc:192.168.1.7:9000, or ros2:/NAME; up to 4"
 bool publish_take(const char *text, void *list);
 bool publish_take_every(const char *text, void *list);
 bool publish_take_listen(const char *text, void *list);
 bool publish_take_origin(const char *text, void *list);
+bool publish_take_profile(const char *text, void *list);
+bool publish_take_domain(const char *text, void *list);
 
 typedef struct publisher publisher;
 

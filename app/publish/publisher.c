@@ -15,6 +15,9 @@
 struct publisher {
     publish_channel channels[PUBLISH_MAX];
     int32_t count;
+    rlf_ros2_publisher *ros2[PUBLISH_MAX];
+    rlf_ros2_status ros2_status[PUBLISH_MAX]; /* at the end */
+    int32_t ros2_count;
     publish_scenes *scenes;
     publish_command taken[PUBLISH_COMMANDS];
     rlf_pose T_world_camera; /* of the last frame */
@@ -116,6 +119,17 @@ static rlf_result open_channel(publisher *p, const publish_address *address,
     return RLF_OK;
 }
 
+static rlf_result open_ros2(publisher *p, const publish_address *address,
+                            const rlf_source_info *info)
+{
+    rlf_result result = rlf_ros2_publisher_open(address->ros2, info, &p->ros2[p->ros2_count]);
+    if (result == RLF_OK) {
+        p->ros2_count++;
+        (void)fprintf(stderr, "relief run: topics below %s\n", address->ros2);
+    }
+    return result;
+}
+
 rlf_result publisher_open(const publish_list *list, const rlf_source_info *info,
                           const char *scene_path, publisher **out)
 {
@@ -130,7 +144,8 @@ rlf_result publisher_open(const publish_list *list, const rlf_source_info *info,
     p->T_world_camera = rlf_pose_identity();
     rlf_result result = publish_scenes_create(scene_path, &p->scenes);
     for (int32_t i = 0; i < list->count && result == RLF_OK; i++) {
-        result = open_channel(p, &list->items[i], info);
+        const publish_address *a = &list->items[i];
+        result = a->ros2[0] != '\0' ? open_ros2(p, a, info) : open_channel(p, a, info);
     }
     if (result != RLF_OK) {
         publisher_end(p);
@@ -154,6 +169,12 @@ void publisher_end(publisher *p)
             pthread_join(c->thread, NULL);
             c->is_running = false;
             net_of(c)->close(c);
+        }
+    }
+    for (int32_t i = 0; p != NULL && i < p->ros2_count; i++) {
+        if (p->ros2[i] != NULL) {
+            p->ros2_status[i] = rlf_ros2_publisher_get_status(p->ros2[i]);
+            rlf_ros2_publisher_close(&p->ros2[i]);
         }
     }
 }
@@ -184,6 +205,14 @@ void publisher_print_summary(publisher *p, FILE *file)
                       (unsigned long long)n->dropped, (unsigned long long)n->done,
                       (unsigned long long)n->refused);
     }
+    for (int32_t i = 0; p != NULL && i < p->ros2_count; i++) {
+        const rlf_ros2_status *n = &p->ros2_status[i];
+        (void)fprintf(file,
+                      "ros2:     %llu frames published, %llu left out, %llu messages that a reader "
+                      "was too slow for\n",
+                      (unsigned long long)n->frames, (unsigned long long)n->dropped,
+                      (unsigned long long)n->unsent);
+    }
 }
 
 void publisher_frame(publisher *p, const rlf_pipeline_output *frame)
@@ -191,6 +220,9 @@ void publisher_frame(publisher *p, const rlf_pipeline_output *frame)
     for (int32_t i = 0; p != NULL && i < p->count; i++) {
         publish_channel_add(&p->channels[i], frame);
         net_of(&p->channels[i])->wake(&p->channels[i]);
+    }
+    for (int32_t i = 0; p != NULL && i < p->ros2_count; i++) {
+        rlf_ros2_publisher_add(p->ros2[i], frame);
     }
     if (p != NULL) {
         p->T_world_camera = frame->T_world_camera;

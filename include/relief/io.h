@@ -117,8 +117,9 @@ typedef struct rlf_recording rlf_recording;
 /* The defaults that the fields name. */
 RLF_API rlf_recording_def rlf_recording_def_default(void);
 /* Begins a recording of a source: an MCAP file with ROS 2 messages, or, when the path ends with /
- * or is a folder, a folder in the TUM layout. What is there of the same name is replaced. The file
- * can be read at any time, whatever becomes of the program. docs/formats.md has the topics. */
+ * or is a folder, a folder in the TUM layout, or, when it is "ros2:/NAME", the topics of a camera,
+ * which other programs read at once (docs/ros2.md). What is there of the same name is replaced. The
+ * file can be read at any time, whatever becomes of the program. docs/formats.md has the topics. */
 RLF_API rlf_result rlf_recording_open(const char *path, const rlf_source_info *info,
                                       const rlf_recording_def *def, rlf_recording **out);
 /* Writes a frame of that source. After a failure, as a full disk, close it: what was written is
@@ -132,6 +133,36 @@ RLF_API rlf_recording_status rlf_recording_get_status(const rlf_recording *recor
 /* Finishes the file; the pointer is nulled even when it fails. NULL and a NULL recording are
  * allowed, and `out` may be NULL. */
 RLF_API rlf_result rlf_recording_close(rlf_recording **recording, rlf_recording_status *out);
+
+/* ---- ROS 2
+ * ------------------------------------------------------------------------------------------ */
+
+/* What a run makes, published for other programs and machines; docs/ros2.md has the topics. */
+typedef struct rlf_ros2_publisher rlf_ros2_publisher;
+
+/* Counts since it was opened. */
+typedef struct rlf_ros2_status {
+    uint64_t frames;   /* that went out */
+    uint64_t dropped;  /* that came while two earlier ones were still going out */
+    uint64_t messages; /* sent, of what a run makes */
+    uint64_t unsent;   /* messages that a reader was too slow for */
+} rlf_ros2_status;
+
+/* Opens the topics below a name and starts a thread: `address` is "ros2:/relief", with
+ * ?profile=local|lan|FILE and ?domain=N as the source ros2: has them. RLF_ERROR_INVALID for an
+ * address that is none, RLF_ERROR_DEVICE without a network, RLF_ERROR_UNSUPPORTED where the build
+ * has no ROS 2. Destroy with rlf_ros2_publisher_close. */
+RLF_API rlf_result rlf_ros2_publisher_open(const char *address, const rlf_source_info *info,
+                                           rlf_ros2_publisher **out);
+/* Copies of one frame what somebody reads, and waits for nobody. A frame of that source.
+ * Thread-safety: one thread at a time. */
+RLF_API void rlf_ros2_publisher_add(rlf_ros2_publisher *publisher,
+                                    const rlf_pipeline_output *frame);
+/* How much went out. Thread-safety: safe. */
+RLF_API rlf_ros2_status rlf_ros2_publisher_get_status(rlf_ros2_publisher *publisher);
+/* Sends what waits, ends the thread and nulls the pointer. NULL and a NULL publisher are allowed.
+ */
+RLF_API void rlf_ros2_publisher_close(rlf_ros2_publisher **publisher);
 
 /* ---- scenes
  * ----------------------------------------------------------------------------------------- */

@@ -96,6 +96,13 @@ typedef struct rlf_pipeline_def {
      * blocks is a known room: the camera is looked for in it, and its world is the world. NULL
      * (default): a room of the pipeline's own, empty, made when it is needed. */
     rlf_map *map;
+    /* Another camera of the same room, whose world this one shares: bodies collide with what either
+     * sees, and each draws its own picture. Borrowed; it must outlive this one. Its def.world has
+     * a camera_capacity for both, this def's T_world_camera says where this camera stands in that
+     * world, and scene, map and a camera that moves are the other's alone. Step this one first: its
+     * newest surface counts when the other steps and advances the world. NULL (default): this
+     * pipeline has a world of its own. */
+    struct rlf_pipeline *joins;
     rlf_surface_fn replace_surface; /* default NULL: physics gets what was sensed */
     void *replace_context;          /* given to replace_surface */
     rlf_pool *pool;                 /* borrowed; NULL = one thread */

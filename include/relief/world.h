@@ -65,6 +65,11 @@ typedef struct rlf_grid {
     double pixel_angle;             /* approximate radians per grid pixel, for footprint sizes */
     rlf_pose T_world_grid;          /* camera pose in the world */
     int64_t time_ns;                /* when it was seen */
+    /* Live: what another camera sees of the same room, or NULL; and so on. Bodies collide with
+     * what any of them sees, and with no guess about what another one sees to be free. */
+    const struct rlf_grid *next;
+    int32_t camera; /* which one this is: 0 for the first of the list, others below
+                       rlf_world_def.camera_capacity, each once and the same in every advance */
 } rlf_grid;
 
 /* ---- world
@@ -76,6 +81,9 @@ typedef enum rlf_physics_method {
     RLF_PHYSICS_THESIS =
         1 /* chapter 4.3: Euler, matrix orientation, region boxes, point impulses */
 } rlf_physics_method;
+
+/* Most cameras that see the room of one world. */
+#define RLF_WORLD_CAMERAS_MAX 8
 
 /* What a world is made of. From rlf_world_def_default; sizes are taken at create. */
 typedef struct rlf_world_def {
@@ -90,9 +98,11 @@ typedef struct rlf_world_def {
     rlf_aabb bounds;           /* bodies whose centre leaves it are removed from the simulation
                                   (Algorithm 1: "while x(t) is within the scene"); default +-20 m */
     rlf_border border;         /* live: what the background is beyond the view; default extend */
-    bool enable_grab; /* live: bodies between fingers, or hands, that close on them are held
-                         until these open; default false */
-    rlf_pool *pool;   /* borrowed; NULL = one thread */
+    bool enable_grab;        /* live: bodies between fingers, or hands, that close on them are held
+                                until these open; default false */
+    int32_t camera_capacity; /* live: cameras that see the room, 1 to RLF_WORLD_CAMERAS_MAX;
+                                default 1 */
+    rlf_pool *pool;          /* borrowed; NULL = one thread */
 } rlf_world_def;
 
 /* The defaults that the fields name. */

@@ -16,6 +16,9 @@ set(fuzz_names address camera_json frame_list layout log matroska model oni pcd 
 if(RELIEF_WITH_MCAP)
   list(APPEND fuzz_names mcap)
 endif()
+if(relief_io_ros2_FOUND)
+  list(APPEND fuzz_names ros2)
+endif()
 # What programs send to `relief run --publish`.
 set(publish_names "")
 if(TARGET relief_command)

@@ -43,3 +43,9 @@ if(RELIEF_WITH_FREENECT AND TARGET test_io_freenect)
                                RLF_TEST_FAKENECT="${RELIEF_FAKENECT_LIBRARY}")
   endif()
 endif()
+
+# Cyclone DDS's headers have "asm", which C17 without extensions spells so.
+if(TARGET test_io_ros2_bad)
+  target_link_libraries(test_io_ros2_bad PRIVATE PkgConfig::relief_io_ros2)
+  target_compile_definitions(test_io_ros2_bad PRIVATE asm=__asm__)
+endif()

@@ -72,6 +72,7 @@ typedef struct valid_arguments {
 #ifdef RLF_TEST_WITH_IO
     rlf_recording_def recording_def;
     rlf_recording *recording;
+    rlf_ros2_publisher *ros2_publisher;
     rlf_video *video;
     rlf_csv_log *csv_log;
     rlf_map_mesh mesh;
@@ -318,6 +319,8 @@ static inline bool make_files(void)
 {
 #ifdef RLF_TEST_WITH_IO
     valid.recording_def = rlf_recording_def_default();
+    /* NULL where the build has no ROS 2. */
+    (void)rlf_ros2_publisher_open("ros2:/null_calls", &valid.info, &valid.ros2_publisher);
     return rlf_recording_open("null_calls/", &valid.info, &valid.recording_def, &valid.recording) ==
                RLF_OK &&
            rlf_video_open("null_calls.y4m", VALID_WIDTH, VALID_HEIGHT, 30, &valid.video) ==
@@ -361,6 +364,7 @@ static inline bool valid_make(void)
 #define VALID_rlf_source_methods (&valid.source_methods)
 #define VALID_rlf_recording_def (&valid.recording_def)
 #define VALID_rlf_recording valid.recording
+#define VALID_rlf_ros2_publisher valid.ros2_publisher
 #define VALID_rlf_frame (&valid.output.frame)
 #define VALID_rlf_snapshot (void *)valid.output.snapshot
 #define VALID_rlf_known_def (&valid.known_def)

@@ -447,7 +447,6 @@ static void sources_that_cannot_be_opened(void **state)
         {"", RLF_ERROR_INVALID, "empty", "synthetic:room"},
         {"/no/such/place", RLF_ERROR_IO, "no such file or folder", "synthetic:room"},
         {"nosuch:0", RLF_ERROR_UNSUPPORTED, "\"nosuch:\"", "relief list sources"},
-        {"ros2:/camera", RLF_ERROR_UNSUPPORTED, "\"ros2:\"", "relief list sources"},
         {"zed:", RLF_ERROR_UNSUPPORTED, "\"zed:\"", "relief list sources"},
         {test_path("file.xyz"), RLF_ERROR_UNSUPPORTED, "is a file", "give the folder"},
     };

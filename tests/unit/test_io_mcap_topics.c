@@ -105,6 +105,31 @@ static void binning_and_windows_are_applied(void **state)
                       RLF_ERROR_FORMAT, "a.mcap", "distortion[1] is not a finite", "?camera=FILE");
 }
 
+/* Rays of known angles, by the formula of the lens, are where the fitted camera puts them. */
+static void an_equidistant_lens_is_fitted(void **state)
+{
+    (void)state;
+    static const double lenses[][4] = {{0, 0, 0, 0}, {0.02, -0.005, 0.001, 0}, {-0.03, 0.01, 0, 0}};
+    for (size_t i = 0; i < sizeof(lenses) / sizeof(lenses[0]); i++) {
+        const double *k = lenses[i];
+        rlf_camera c = {.width = 640, .height = 480, .fx = 600, .fy = 601, .cx = 318, .cy = 242};
+        assert_true(io_equidistant_lens(k, &c) < 0.1);
+        for (int a = 0; a < 12; a++) {
+            for (double t = 0.02; t < 0.38; t += 0.02) {
+                const double way = a * 0.5,
+                             r = t * (1 + t * t * (k[0] + t * t * (k[1] + t * t * k[2])));
+                double u, v;
+                assert_true(rlf_camera_project(
+                    &c, rlf_vec3_make(sin(t) * cos(way), sin(t) * sin(way), cos(t)), &u, &v));
+                assert_true(fabs(u - (c.cx + c.fx * r * cos(way))) < 0.15);
+                assert_true(fabs(v - (c.cy + c.fy * r * sin(way))) < 0.15);
+            }
+        }
+    }
+    rlf_camera wide = {.width = 640, .height = 480, .fx = 200, .fy = 200, .cx = 320, .cy = 240};
+    assert_true(isinf(io_equidistant_lens(lenses[0], &wide))); /* 115 degrees to its corners */
+}
+
 static void what_is_left_out_is_told(void **state)
 {
     (void)state;
@@ -123,7 +148,8 @@ static void what_is_left_out_is_told(void **state)
          "thin prism (s1 to s4 = 0.001 0 0 0), tilt (tauX, tauY = 0.01 0)",
          RLF_DISTORTION_RATIONAL_POLYNOMIAL},
         {"/d/image", "plumb_bob", {[13] = 0.01}, 0, 0, 0, "tilt", RLF_DISTORTION_NONE},
-        {"/d/image", "equidistant", {0.1, 0.01}, 0, 0, 0, "\"equidistant\"", RLF_DISTORTION_NONE},
+        {"/d/image", "equidistant", {0.1, 0.01}, 0, 0, 0, NULL, RLF_DISTORTION_PLUMB_BOB},
+        {"/d/image", "equidistant", {-300, 0}, 0, 0, 0, "\"equidistant\"", RLF_DISTORTION_NONE},
         {"/d/image", "equidistant", {0}, 0, 0, 0, NULL, RLF_DISTORTION_NONE},
         {"/d/image", "plumb_bob", {0.1}, 0.02, 90, 0, NULL, RLF_DISTORTION_PLUMB_BOB},
         {"/d/image",
@@ -477,6 +503,7 @@ int main(void)
 #define ROS_TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
         ROS_TEST(binning_and_windows_are_applied),
+        ROS_TEST(an_equidistant_lens_is_fitted),
         ROS_TEST(what_is_left_out_is_told),
         ROS_TEST(a_lens_of_another_size_is_never_taken),
         ROS_TEST(aligned_depth_serves_without_transforms),

@@ -35,6 +35,12 @@ static bool is_folder(const char *path)
            (stat(path, &status) == 0 && S_ISDIR(status.st_mode));
 }
 
+/* No file: the topics of a camera. */
+static bool is_ros2(const char *path)
+{
+    return strncmp(path, "ros2:", 5) == 0;
+}
+
 /* A device and a pipe may have any name. */
 static bool is_mcap(const char *path)
 {
@@ -59,10 +65,11 @@ static rlf_result check_def(const char *path, const rlf_recording_def *def)
                         "rlf_compression",
                         path, (int)def->depth_codec, (int)def->compression);
     }
-    return is_folder(path) || is_mcap(path)
+    return is_ros2(path) || is_folder(path) || is_mcap(path)
                ? RLF_OK
                : rlf_fail(RLF_ERROR_INVALID,
-                          "%s: is no name of a recording: end it in .mcap, or in / for a folder",
+                          "%s: is no name of a recording: end it in .mcap, in / for a folder, or "
+                          "give ros2:/CAMERA",
                           path);
 }
 
@@ -82,8 +89,9 @@ rlf_result rlf_recording_open(const char *path, const rlf_source_info *info,
     if (recording == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    result = is_folder(path) ? io_folder_sink_open(path, info, def, &recording->sink)
-                             : io_mcap_sink_open(path, info, def, &recording->sink);
+    result = is_ros2(path)     ? io_ros2_sink_open(path, info, def, &recording->sink)
+             : is_folder(path) ? io_folder_sink_open(path, info, def, &recording->sink)
+                               : io_mcap_sink_open(path, info, def, &recording->sink);
     if (result != RLF_OK) {
         rlf_free(recording);
         return result;

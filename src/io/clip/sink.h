@@ -20,6 +20,8 @@ typedef struct io_sink {
 
 rlf_result io_mcap_sink_open(const char *path, const rlf_source_info *info,
                              const rlf_recording_def *def, io_sink *out);
+rlf_result io_ros2_sink_open(const char *path, const rlf_source_info *info,
+                             const rlf_recording_def *def, io_sink *out);
 rlf_result io_folder_sink_open(const char *path, const rlf_source_info *info,
                                const rlf_recording_def *def, io_sink *out);
 

@@ -3,10 +3,8 @@
 #include "io/clip/sink.h"
 
 #include "io/clip/clip.h"
-#include "io/picture/picture.h"
-#include "io/picture/pixels.h"
 #include "io/mcap/format.h"
-#include "io/ros/messages.h"
+#include "io/ros/frame_write.h"
 #include "io/mcap/write.h"
 
 #include <stdio.h>
@@ -14,7 +12,6 @@
 
 /* A chunk is also written once it is this large, which bounds the memory. */
 #define CHUNK_BYTES_MAX ((size_t)64 << 20)
-#define LEVEL 1 /* of zlib: recording has to keep up */
 
 /* What ROS 2 calls these policies in a recording: every message counts; late ones come too. */
 #define QOS(durability)                                                                            \
@@ -30,9 +27,7 @@ typedef struct mcap_sink {
     bool is_started;
     uint16_t depth, color, depth_info, color_info, tf_static, tf, pose, note;
     io_frame_notes notes;
-    io_rvl rvl;
-    io_jpeg_encoder *jpeg;
-    void *scratch; /* rows without padding */
+    io_ros_encoder encoder;
     int64_t chunk_begin_ns, last_color_ns;
     uint64_t frames, colors, bytes;
 } mcap_sink;
@@ -118,17 +113,10 @@ static void add_channels(mcap_sink *s, const rlf_frame *frame)
     s->note = io_mcap_add_channel(w, IO_TOPIC_FRAME, passing);
 }
 
-static io_ros_header header_at(int64_t time_ns, const char *frame_id)
-{
-    io_ros_header header = {.stamp_ns = time_ns > 0 ? time_ns : 0};
-    snprintf(header.frame_id, sizeof(header.frame_id), "%s", frame_id);
-    return header;
-}
-
 static void add_info(mcap_sink *s, uint16_t channel, int64_t time_ns, const char *frame_id,
                      const rlf_camera *camera)
 {
-    const io_ros_header header = header_at(time_ns, frame_id);
+    const io_ros_header header = io_ros_header_at(time_ns, frame_id);
     io_cdr_writer cdr = io_cdr_begin(io_mcap_begin(s->writer, channel, time_ns));
     io_ros_write_camera_info(&cdr, &header, camera);
     io_mcap_end(s->writer, true);
@@ -145,13 +133,9 @@ static void add_static_transform(mcap_sink *s, int64_t time_ns)
     io_mcap_end(s->writer, true);
 }
 
-static rlf_result start(mcap_sink *s, const rlf_frame *frame)
+static void start(mcap_sink *s, const rlf_frame *frame)
 {
     const rlf_rig *r = &s->info.rig;
-    s->scratch = rlf_alloc_array((size_t)r->depth.width * (size_t)r->depth.height, 4);
-    if (s->scratch == NULL) {
-        return RLF_ERROR_MEMORY;
-    }
     s->is_started = true;
     s->notes.has_color_camera = r->has_color;
     s->notes.flags = frame->flags & (RLF_FRAME_UNMIRRORED | RLF_FRAME_ALIGNED);
@@ -162,69 +146,19 @@ static rlf_result start(mcap_sink *s, const rlf_frame *frame)
         add_info(s, s->color_info, frame->time_ns, IO_FRAME_COLOR, &r->color);
         add_static_transform(s, frame->time_ns);
     }
-    return RLF_OK;
 }
 
 /* ---- pictures ------------------------------------------------------------------------------- */
 
-static void put_rvl(mcap_sink *s, const uint16_t *rows, io_byte_buffer *b)
-{
-    const rlf_camera *c = &s->info.rig.depth;
-    const size_t pixels = (size_t)c->width * (size_t)c->height;
-    io_put_u32(b, (uint32_t)c->width);
-    io_put_u32(b, (uint32_t)c->height);
-    uint8_t *out = io_byte_buffer_reserve(b, io_rvl_bound(pixels));
-    if (out != NULL) {
-        io_byte_buffer_grow(b, io_rvl_encode(&s->rvl, rows, pixels, out));
-    }
-}
-
-/* compressed_depth_image_transport: 12 bytes that say nothing about 16UC1, then the picture. */
-static rlf_result put_counts(mcap_sink *s, const rlf_frame *frame, io_cdr_writer *cdr)
-{
-    static const uint8_t head[12] = {0};
-    const rlf_camera *c = &s->info.rig.depth;
-    const bool is_rvl = s->def.depth_codec == RLF_DEPTH_RVL;
-    io_ros_image image = {.header = header_at(frame->time_ns, IO_FRAME_DEPTH)};
-    snprintf(image.encoding, sizeof(image.encoding), "16UC1; compressedDepth %s",
-             is_rvl ? "rvl" : "png");
-    const size_t begin = io_ros_begin_compressed(cdr, &image);
-    io_byte_buffer_add(cdr->buffer, head, sizeof(head));
-    const uint16_t *rows = io_depth_rows(frame, &s->info.rig, s->scratch);
-    rlf_result result = RLF_OK;
-    if (is_rvl) {
-        put_rvl(s, rows, cdr->buffer);
-    } else {
-        const io_png_def def = {"depth",         rows, c->width, c->height, (ptrdiff_t)c->width * 2,
-                                IO_PNG_GREY_U16, LEVEL};
-        result = io_png_encode(&def, cdr->buffer);
-    }
-    io_cdr_end_bytes(cdr, begin);
-    return result;
-}
-
-static void put_metres(mcap_sink *s, const rlf_frame *frame, io_cdr_writer *cdr)
-{
-    const rlf_camera *c = &s->info.rig.depth;
-    io_ros_image image = {.header = header_at(frame->time_ns, IO_FRAME_DEPTH),
-                          .width = (uint32_t)c->width,
-                          .height = (uint32_t)c->height,
-                          .step = (uint32_t)c->width * 4,
-                          .encoding = "32FC1"};
-    const size_t begin = io_ros_begin_image(cdr, &image);
-    io_byte_buffer_add(cdr->buffer, io_depth_rows(frame, &s->info.rig, s->scratch),
-                       (size_t)c->width * (size_t)c->height * 4);
-    io_cdr_end_bytes(cdr, begin);
-}
-
 static rlf_result add_depth(mcap_sink *s, const rlf_frame *frame)
 {
+    const io_ros_header header = io_ros_header_at(frame->time_ns, IO_FRAME_DEPTH);
     io_cdr_writer cdr = io_cdr_begin(io_mcap_begin(s->writer, s->depth, frame->time_ns));
     rlf_result result = RLF_OK;
     if (frame->depth_f32 != NULL) {
-        put_metres(s, frame, &cdr);
+        io_ros_write_depth(&s->encoder, frame, &header, &cdr);
     } else {
-        result = put_counts(s, frame, &cdr);
+        result = io_ros_write_counts(&s->encoder, frame, &header, &cdr);
     }
     io_mcap_end(s->writer, result == RLF_OK);
     return result;
@@ -237,21 +171,9 @@ static rlf_result add_color(mcap_sink *s, const rlf_frame *frame)
     if (s->colors > 0 && time_ns == s->last_color_ns) {
         return RLF_OK; /* the same picture again */
     }
-    const bool is_jpeg = s->def.jpeg_quality > 0;
-    io_ros_image image = {.header = header_at(time_ns, IO_FRAME_COLOR)};
-    snprintf(image.encoding, sizeof(image.encoding), "rgb8; %s compressed %s",
-             is_jpeg ? "jpeg" : "png", is_jpeg ? "bgr8" : "rgb8");
+    const io_ros_header header = io_ros_header_at(time_ns, IO_FRAME_COLOR);
     io_cdr_writer cdr = io_cdr_begin(io_mcap_begin(s->writer, s->color, time_ns));
-    const size_t begin = io_ros_begin_compressed(&cdr, &image);
-    rlf_result result;
-    if (is_jpeg) {
-        result = io_jpeg_encode(s->jpeg, c, s->def.jpeg_quality, cdr.buffer);
-    } else {
-        const io_png_def def = {"colour",  c->data,    c->width, c->height,
-                                c->stride, IO_PNG_RGB, LEVEL};
-        result = io_png_encode(&def, cdr.buffer);
-    }
-    io_cdr_end_bytes(&cdr, begin);
+    rlf_result result = io_ros_write_compressed(&s->encoder, c, &header, &cdr);
     io_mcap_end(s->writer, result == RLF_OK);
     s->last_color_ns = time_ns;
     s->colors += result == RLF_OK ? 1 : 0;
@@ -260,7 +182,7 @@ static rlf_result add_color(mcap_sink *s, const rlf_frame *frame)
 
 static void add_pose(mcap_sink *s, const rlf_frame *frame)
 {
-    const io_ros_header header = header_at(frame->time_ns, IO_FRAME_WORLD);
+    const io_ros_header header = io_ros_header_at(frame->time_ns, IO_FRAME_WORLD);
     io_cdr_writer cdr = io_cdr_begin(io_mcap_begin(s->writer, s->pose, frame->time_ns));
     io_ros_write_pose(&cdr, &header, &frame->T_world_camera);
     io_mcap_end(s->writer, true);
@@ -297,8 +219,11 @@ static rlf_result flush_when_due(mcap_sink *s, int64_t time_ns)
 static rlf_result mcap_add(void *self, const rlf_frame *frame)
 {
     mcap_sink *s = self;
-    rlf_result result = s->is_started ? RLF_OK : start(s, frame);
-    if (result == RLF_OK && s->info.rig.has_color && frame->color.data != NULL) {
+    rlf_result result = RLF_OK;
+    if (!s->is_started) {
+        start(s, frame);
+    }
+    if (s->info.rig.has_color && frame->color.data != NULL) {
         result = add_color(s, frame);
     }
     result = result == RLF_OK ? add_depth(s, frame) : result;
@@ -351,8 +276,7 @@ static rlf_result mcap_close(void *self, rlf_recording_status *status)
     status->bytes = written.bytes;
     status->frames =
         s->is_started ? written.of_channel[s->depth - 1] : 0; /* a full disk keeps few */
-    io_jpeg_encoder_destroy(&s->jpeg);
-    rlf_free(s->scratch);
+    io_ros_encoder_free(&s->encoder);
     rlf_free(s);
     return result;
 }
@@ -367,13 +291,12 @@ rlf_result io_mcap_sink_open(const char *path, const rlf_source_info *info,
     }
     s->info = *info;
     s->def = *def;
-    io_rvl_init(&s->rvl);
-    rlf_result result = io_jpeg_encoder_create(&s->jpeg);
+    rlf_result result = io_ros_encoder_init(&s->encoder, &info->rig, def);
     if (result == RLF_OK) {
         result = io_mcap_writer_create(path, compressions[def->compression], &s->writer);
     }
     if (result != RLF_OK) {
-        io_jpeg_encoder_destroy(&s->jpeg);
+        io_ros_encoder_free(&s->encoder);
         rlf_free(s);
         return result;
     }

@@ -31,6 +31,10 @@ bool io_pixels_is_picture(const char *encoding);
  * size that is wanted and room for it; another one is an error. */
 rlf_result io_pixels_to_rgba(const io_pixels *in, const rlf_image_rgba8 *out);
 
+/* A row of `width` pixels: alpha becomes 255, or is dropped. */
+void io_rgb_to_rgba(const uint8_t *rgb, int32_t width, uint8_t *out_rgba);
+void io_rgba_to_rgb(const uint8_t *rgba, int32_t width, uint8_t *out_rgb);
+
 /* Depth to in->width x in->height counts without padding; the caller has checked that size against
  * its room. 16UC1 and mono16 are taken as they are, 1000 per metre as ROS (REP 118) has it. 32FC1
  * is metres; missing ones (NaN, infinite, <= 0) and what is beyond the range become 0. */

@@ -103,6 +103,10 @@ static void put(uint8_t *out, uint8_t red, uint8_t green, uint8_t blue)
 
 static void packed_row(const encoding *e, const uint8_t *row, int32_t width, uint8_t *out)
 {
+    if (e->pixel_size == 3 && e->a == 0) {
+        io_rgb_to_rgba(row, width, out);
+        return;
+    }
     for (int32_t x = 0; x < width; x++) {
         put(out + 4 * x, row[e->a], row[e->b], row[e->c]);
         row += e->pixel_size;

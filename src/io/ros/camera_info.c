@@ -9,6 +9,9 @@
 /* Numbers that differ by less come of rounding. */
 #define ROUNDING 1e-6
 
+/* A fit of another lens is as good as the lens: calibrations are no better. */
+#define FIT_PX 0.5
+
 /* What cannot be used, as a list for one line. */
 typedef struct losses {
     char text[256];
@@ -63,6 +66,16 @@ static void set_distortion(const io_camera_info *info, rlf_camera *out, losses *
 {
     if (!is_any(info->d, 0, IO_ROS_DISTORTION_MAX)) {
         return;
+    }
+    const bool is_fisheye =
+        strcmp(info->model, "equidistant") == 0 || strcmp(info->model, "fisheye") == 0;
+    if (is_fisheye) {
+        const rlf_camera pinhole = *out;
+        const double off_px = io_equidistant_lens(info->d, out);
+        if (off_px <= FIT_PX) {
+            return;
+        }
+        *out = pinhole;
     }
     if (!is_brown(info->model)) {
         lose(lost, "the lens model \"%.40s\"", info->model);

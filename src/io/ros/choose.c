@@ -146,8 +146,9 @@ static rlf_result fail_depth(const io_ros_topics *topics, const char *wished)
     }
     return rlf_fail(RLF_ERROR_FORMAT,
                     "%s: holds no depth pictures (" DEPTH_KINDS
-                    "): record the camera's depth topic too; its topics of pictures are:%s%s%s",
-                    topics->name, list, also, topics->strangers);
+                    "): %s the camera's depth topic too; its topics of pictures are:%s%s%s",
+                    topics->name, topics->is_live ? "publish" : "record", list, also,
+                    topics->strangers);
 }
 
 static rlf_result fail_color(const io_ros_topics *topics, const char *wished)

@@ -74,6 +74,10 @@ typedef struct io_camera_info {
  * (REP 104). False when it describes none. */
 bool io_camera_info_size(const io_camera_info *info, int32_t *out_width, int32_t *out_height);
 
+/* Fits the camera's distortion to an equidistant lens of these coefficients; fx, fy, cx, cy and the
+ * size are given. Returns the largest distance that is left, pixels; infinity when nothing fits. */
+double io_equidistant_lens(const double k[4], rlf_camera *camera);
+
 /* The camera of these pictures. Of a topic whose name says "rect" that is P, free of distortion;
  * else K and D. A warning tells what of the lens cannot be used. RLF_ERROR_FORMAT when it is not
  * calibrated or describes no picture. `name`: the file, for these lines. */
@@ -145,6 +149,8 @@ bool io_ros_read_float(io_cdr_reader r, double *out);
 bool io_ros_read_value(io_cdr_reader r, const char *key, char *out, size_t capacity);
 bool io_ros_read_pose(io_cdr_reader r, io_ros_header *header, rlf_pose *out);
 
+/* What most messages begin with. */
+void io_ros_write_header(io_cdr_writer *w, const io_ros_header *header);
 /* A message up to its bytes; they follow, then io_cdr_end_bytes with what this returns. */
 size_t io_ros_begin_image(io_cdr_writer *w, const io_ros_image *image);
 size_t io_ros_begin_compressed(io_cdr_writer *w, const io_ros_image *image);

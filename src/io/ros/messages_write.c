@@ -3,7 +3,7 @@
 
 #define NS_PER_S INT64_C(1000000000)
 
-static void put_header(io_cdr_writer *w, const io_ros_header *header)
+void io_ros_write_header(io_cdr_writer *w, const io_ros_header *header)
 {
     io_cdr_put_u32(w, (uint32_t)(header->stamp_ns / NS_PER_S));
     io_cdr_put_u32(w, (uint32_t)(header->stamp_ns % NS_PER_S));
@@ -12,7 +12,7 @@ static void put_header(io_cdr_writer *w, const io_ros_header *header)
 
 size_t io_ros_begin_image(io_cdr_writer *w, const io_ros_image *image)
 {
-    put_header(w, &image->header);
+    io_ros_write_header(w, &image->header);
     io_cdr_put_u32(w, image->height);
     io_cdr_put_u32(w, image->width);
     io_cdr_put_text(w, image->encoding);
@@ -23,7 +23,7 @@ size_t io_ros_begin_image(io_cdr_writer *w, const io_ros_image *image)
 
 size_t io_ros_begin_compressed(io_cdr_writer *w, const io_ros_image *image)
 {
-    put_header(w, &image->header);
+    io_ros_write_header(w, &image->header);
     io_cdr_put_text(w, image->encoding);
     return io_cdr_begin_bytes(w);
 }
@@ -36,7 +36,7 @@ void io_ros_write_camera_info(io_cdr_writer *w, const io_ros_header *header,
     const double k[9] = {c->fx, 0, c->cx, 0, c->fy, c->cy, 0, 0, 1};
     const double r[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     const double p[12] = {c->fx, 0, c->cx, 0, 0, c->fy, c->cy, 0, 0, 0, 1, 0};
-    put_header(w, header);
+    io_ros_write_header(w, header);
     io_cdr_put_u32(w, (uint32_t)c->height);
     io_cdr_put_u32(w, (uint32_t)c->width);
     io_cdr_put_text(w, is_rational ? "rational_polynomial" : "plumb_bob");
@@ -55,7 +55,7 @@ static void put_transform(io_cdr_writer *w, const io_ros_transform *t)
 {
     io_ros_header header = {.stamp_ns = t->stamp_ns};
     memcpy(header.frame_id, t->parent, sizeof(header.frame_id));
-    put_header(w, &header);
+    io_ros_write_header(w, &header);
     io_cdr_put_text(w, t->child);
     const rlf_pose *pose = &t->T_parent_child;
     const double numbers[7] = {pose->p.x, pose->p.y, pose->p.z, pose->q.x,
@@ -75,6 +75,6 @@ void io_ros_write_pose(io_cdr_writer *w, const io_ros_header *header, const rlf_
 {
     const double numbers[7] = {pose->p.x, pose->p.y, pose->p.z, pose->q.x,
                                pose->q.y, pose->q.z, pose->q.w};
-    put_header(w, header);
+    io_ros_write_header(w, header);
     io_cdr_put_doubles(w, numbers, 7);
 }

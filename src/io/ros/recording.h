@@ -77,6 +77,7 @@ typedef struct io_ros_info_topic {
 /* What a recording holds. Lists of the caller. */
 typedef struct io_ros_topics {
     const char *name; /* of the file, for error lines */
+    bool is_live;
     const io_ros_topic *pictures;
     const io_ros_info_topic *infos;
     int32_t picture_count, info_count;
@@ -121,6 +122,7 @@ typedef struct io_ros_channel {
 typedef struct io_ros_log {
     const char *name; /* for error lines; stays while the log does */
     bool is_ros1;
+    bool is_live;          /* of a running camera: nothing can be recorded anew */
     bool has_own_poses;    /* the driver's; tf is not asked */
     const char *strangers; /* as in io_ros_topics */
     int32_t channel_count;

@@ -70,10 +70,11 @@ rlf_result io_ros_read_rig(io_ros_recording *r, const rlf_address *address)
         rlf_result result = io_rig_beside(address, &r->rig, &r->units_per_metre, &r->has_given_rig);
         if (result == RLF_OK && !r->has_given_rig) {
             result = rlf_fail(RLF_ERROR_FORMAT,
-                              "%s: has no usable CameraInfo for %s (%s): record its camera_info, "
-                              "or give the calibration with ?camera=FILE, or as camera.json beside "
-                              "the file",
-                              address->source, r->pictures[r->depth.picture].name, problem);
+                              "%s: has no usable CameraInfo for %s (%s): %s its camera_info, or "
+                              "give the calibration with ?camera=FILE%s",
+                              address->source, r->pictures[r->depth.picture].name, problem,
+                              r->log.is_live ? "publish" : "record",
+                              r->log.is_live ? "" : ", or as camera.json beside the file");
         }
         if (result != RLF_OK) {
             return result;

@@ -91,6 +91,7 @@ rlf_result io_ros_list_topics(io_ros_recording *r)
         return RLF_ERROR_MEMORY;
     }
     r->lists = (io_ros_topics){.name = r->log.name,
+                               .is_live = r->log.is_live,
                                .pictures = r->pictures,
                                .infos = r->infos,
                                .strangers = r->log.strangers,

@@ -16,6 +16,9 @@ static const rlf_backend *const built_in[] = {
 #ifdef RLF_HAVE_MCAP
     &io_backend_mcap,
 #endif
+#ifdef RLF_HAVE_ROS2
+    &io_backend_ros2,
+#endif
     &io_backend_oni,       &io_backend_pcd,  &io_backend_klg,       &io_backend_matroska,
     &io_backend_rosbag,    &io_backend_sens, &io_backend_folder,
 };
@@ -38,6 +41,10 @@ static const io_backend_absent absent[] = {
 #ifndef RLF_HAVE_MCAP
     {"mcap", ".mcap", "RELIEF_WITH_MCAP", "a recording: MCAP with ROS 2 pictures",
      RLF_GET_PART("libzstd-dev liblz4-dev", "script/bootstrap", "RELIEF_WITH_MCAP")},
+#endif
+#ifndef RLF_HAVE_ROS2
+    {"ros2", NULL, "RELIEF_WITH_ROS2", "any camera with a ROS 2 driver",
+     RLF_GET_PART("cyclonedds-dev", "script/bootstrap --all", "RELIEF_WITH_ROS2")},
 #endif
     {0},
 };

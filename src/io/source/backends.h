@@ -22,6 +22,7 @@ extern const rlf_backend io_backend_matroska;
 extern const rlf_backend io_backend_rosbag;
 extern const rlf_backend io_backend_sens;
 extern const rlf_backend io_backend_mcap;
+extern const rlf_backend io_backend_ros2;
 
 /* Built-in ones first, in the order in which they are asked for a file, then those of plug-ins;
  * NULL past the last. The folders of plug-ins are searched once, by the first call past the

@@ -1,0 +1,215 @@
+/* Any camera with a ROS 2 driver as a source. */
+#include "io/ros2/stream.h"
+
+#include "io/clip/clip.h"
+#include "io/source/backends.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define NS_PER_S 1000000000.0
+#define RATE_MAX 240.0
+
+typedef struct ros2 {
+    char source[256];
+    io_ros2_node *node;
+    io_ros2_gathered gathered;
+    io_ros_recording ros; /* of the first messages: what the topics are, cameras, decoder */
+    io_stream_pair pair;
+    io_ros2_stream depth, color;
+    double frames_per_second;
+} ros2;
+
+/* ---- frames --------------------------------------------------------------------------------- */
+
+static bool take_color(ros2 *r)
+{
+    io_ros2_message held = {0};
+    io_ros_image image;
+    if (!r->ros.rig.has_color || !io_ros2_stream_take(&r->color, &held, &image)) {
+        return false;
+    }
+    const rlf_image_rgba8 to = io_stream_pair_color(&r->pair);
+    if (io_ros_decode_color(&r->ros.decoder, &image, r->color.pixels, &to) == RLF_OK) {
+        io_stream_pair_push_color(&r->pair, image.header.stamp_ns);
+    } else {
+        io_ros2_stream_refuse(&r->color, rlf_error_text());
+    }
+    io_ros2_release(&held);
+    return true;
+}
+
+static bool take_depth(ros2 *r)
+{
+    io_ros2_message held = {0};
+    io_ros_image image;
+    if (!io_ros2_stream_take(&r->depth, &held, &image)) {
+        return false;
+    }
+    const rlf_camera *c = &r->ros.rig.depth;
+    if (io_ros_decode_depth(&r->ros.decoder, &image, r->depth.pixels, c->width, c->height,
+                            io_stream_pair_depth(&r->pair)) == RLF_OK) {
+        io_stream_pair_push_depth(&r->pair, image.header.stamp_ns, -1);
+    } else {
+        io_ros2_stream_refuse(&r->depth, rlf_error_text());
+    }
+    io_ros2_release(&held);
+    return true;
+}
+
+/* One picture of each: more would push one out that waits for its other half. */
+static rlf_result pump(void *self, int32_t wait_ms)
+{
+    ros2 *r = self;
+    const bool has_color = take_color(r);
+    if (!take_depth(r) && !has_color) {
+        io_ros2_wait(r->node, wait_ms);
+    }
+    return RLF_OK;
+}
+
+static rlf_result ros2_next(void *self, rlf_frame *out)
+{
+    ros2 *r = self;
+    return io_stream_pair_next(&r->pair, pump, r, out);
+}
+
+static void ros2_status(void *self, rlf_source_status *out)
+{
+    const ros2 *r = self;
+    out->lost = r->pair.status.lost;
+    out->doubled = r->pair.status.doubled;
+    out->unpaired = r->pair.status.unpaired;
+    out->damaged = r->pair.status.damaged;
+}
+
+static void ros2_destroy(void *self)
+{
+    ros2 *r = self;
+    io_stream_pair_finish(&r->pair);
+    io_ros_recording_free(&r->ros);
+    io_ros2_gathered_free(&r->gathered);
+    io_ros2_node_close(&r->node);
+    rlf_free(r);
+}
+
+/* ---- opening -------------------------------------------------------------------------------- */
+
+/* The two machines' clocks tell when a picture was taken: both must be right to a frame. */
+static rlf_result check_clock(const ros2 *r, const rlf_address *address,
+                              const io_ros2_channel *depth)
+{
+    const char *wish = rlf_address_get(address, "clock");
+    if (wish != NULL && strcmp(wish, "any") != 0) {
+        return rlf_fail(RLF_ERROR_INVALID, "%s: clock=%.40s: the one value is any", r->source,
+                        wish);
+    }
+    const double off_s = -1e-9 * (double)depth->clock_ns;
+    if (wish != NULL || depth->clock_ns == INT64_MAX || fabs(off_s) * r->frames_per_second <= 1.0) {
+        return RLF_OK;
+    }
+    return rlf_fail(RLF_ERROR_DEVICE,
+                    "%s: the clock of the camera's host is %.3f s %s this machine's, and a frame "
+                    "takes %.3f s: synchronise both (chrony), or add ?clock=any",
+                    r->source, fabs(off_s), off_s > 0.0 ? "ahead of" : "behind",
+                    1.0 / r->frames_per_second);
+}
+
+/* The readers of the other topics are closed: what nobody reads is not sent. */
+static void use_streams(ros2 *r)
+{
+    const io_ros_stream *const from[2] = {&r->ros.depth, &r->ros.color};
+    io_ros2_stream *const to[2] = {&r->depth, &r->color};
+    for (int k = 0; k < 2; k++) {
+        if (from[k]->channel >= 0) {
+            const io_ros2_channel *c = &r->gathered.channels[from[k]->channel];
+            *to[k] = (io_ros2_stream){.source = r->source,
+                                      .topic = c->topic.name,
+                                      .reader = c->reader,
+                                      .is_compressed = from[k]->is_compressed,
+                                      .pixels = from[k]->pixels,
+                                      .damaged = &r->pair.status.damaged};
+        }
+    }
+    for (int32_t i = 0; i < r->gathered.count; i++) {
+        if (i != r->ros.depth.channel && i != r->ros.color.channel) {
+            io_ros2_reader_close(&r->gathered.channels[i].reader);
+        }
+    }
+}
+
+static void read_rate(ros2 *r, const io_ros2_channel *depth)
+{
+    const double rate = depth->interval_ns > 0 ? NS_PER_S / (double)depth->interval_ns : 30.0;
+    r->frames_per_second = rate < 1.0 ? 1.0 : rate > RATE_MAX ? RATE_MAX : rate;
+}
+
+static rlf_result start(ros2 *r, const rlf_address *address)
+{
+    io_ros2_place place;
+    rlf_result result = io_ros2_place_read(r->source, rlf_address_get(address, "domain"),
+                                           rlf_address_get(address, "profile"), &place);
+    result = result == RLF_OK ? io_ros2_node_open(r->source, &place, &r->node) : result;
+    const io_ros2_wish wish = {.place = address->place,
+                               .depth = rlf_address_get(address, "depth"),
+                               .color = rlf_address_get(address, "color"),
+                               .is_packed = place.profile == IO_ROS2_LAN};
+    result = result == RLF_OK ? io_ros2_gather(r->node, r->source, &wish, &r->gathered) : result;
+    if (result != RLF_OK) {
+        return result;
+    }
+    r->ros.log = io_ros2_gathered_log(&r->gathered, r->source);
+    result = io_ros_prepare(&r->ros, address);
+    if (result != RLF_OK) {
+        return result;
+    }
+    const io_ros2_channel *depth = &r->gathered.channels[r->ros.depth.channel];
+    read_rate(r, depth);
+    result = check_clock(r, address, depth);
+    r->ros.decoder.rounds_metres = true; /* pairs are of counts */
+    const double units =
+        io_ros_is_metres(r->ros.depth.pixels) ? IO_PIXELS_FLOAT_UNITS : r->ros.units_per_metre;
+    if (result == RLF_OK) {
+        result = io_stream_pair_init(&r->pair, &r->ros.rig, units, r->frames_per_second);
+        r->pair.flags |= r->ros.flags;
+    }
+    if (result == RLF_OK) {
+        use_streams(r);
+    }
+    return result;
+}
+
+static void describe(const ros2 *r, char *out, size_t size)
+{
+    const bool has_color = r->ros.rig.has_color;
+    snprintf(out, size, "ROS 2: depth %.50s%s%.50s", r->depth.topic, has_color ? ", colour " : "",
+             has_color ? r->color.topic : "");
+}
+
+static rlf_result ros2_open(const rlf_address *address, rlf_opened *out)
+{
+    static const rlf_source_methods methods = {
+        .next = ros2_next, .destroy = ros2_destroy, .status = ros2_status};
+    ros2 *r = rlf_alloc(sizeof(*r));
+    if (r == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    snprintf(r->source, sizeof(r->source), "%.255s", address->source);
+    rlf_result result = start(r, address);
+    io_live_opened(&methods, r, r->source, &r->ros.rig, r->frames_per_second, out);
+    if (result == RLF_OK) {
+        describe(r, out->info.device, sizeof(out->info.device));
+    }
+    return io_open_end(result, r, ros2_destroy);
+}
+
+const rlf_backend io_backend_ros2 = {
+    .version = RLF_BACKEND_VERSION,
+    .scheme = "ros2",
+    .keys = "depth color domain profile clock",
+    .summary = "any camera with a ROS 2 driver: ros2:/camera?depth=TOPIC&color=TOPIC&profile=lan",
+    .is_live = true,
+    .list = io_ros2_list,
+    .open = ros2_open,
+};
