@@ -78,6 +78,25 @@ static rlf_result open_recorder(const session_options *options, session *s)
     return result == RLF_OK ? recorder_tap(s->recorder, &s->source) : result;
 }
 
+/* The pair's second camera is the projector, which shines where a camera looks. */
+static rlf_result set_projector(const char *path, rlf_pipeline *pipeline)
+{
+    rlf_rig rig;
+    double units;
+    if (path == NULL) {
+        return RLF_OK;
+    }
+    const rlf_result result = rlf_rig_load(path, &rig, &units);
+    if (result == RLF_OK && !rig.has_color) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "%s: has one camera: a projector needs a calibrated pair, of the depth "
+                        "camera and the projector (relief calibrate)",
+                        path);
+    }
+    return result == RLF_OK ? rlf_pipeline_set_projector(pipeline, &rig.color, &rig.T_color_depth)
+                            : result;
+}
+
 static rlf_result create_pipeline(const session_options *options, session *s)
 {
     const rlf_source_info *info = rlf_source_get_info(s->source);
@@ -113,7 +132,11 @@ static rlf_result create_pipeline(const session_options *options, session *s)
     if (result == RLF_OK) {
         result = session_cameras_join(&s->cameras, &def, s->pipeline);
     }
+    if (result == RLF_OK) {
+        result = set_projector(options->projector_path, s->pipeline);
+    }
     if (result != RLF_OK) {
+        session_cameras_leave(&s->cameras);
         rlf_pipeline_destroy(&s->pipeline);
     }
     return result;
@@ -217,8 +240,20 @@ rlf_result session_replace(session *s, const session_options *options)
     return result;
 }
 
+rlf_result session_again(session *s, const session_options *options)
+{
+    (void)recorder_destroy(&s->recorder, NULL);
+    session_cameras_close(&s->cameras);
+    rlf_source_destroy(&s->source);
+    s->playback = NULL; /* was the source's */
+    return session_replace(s, options);
+}
+
 rlf_result session_renew(session *s, const session_options *options)
 {
+    if (s->source == NULL) {
+        return rlf_fail(RLF_ERROR_UNSUPPORTED, "there is no source now, and it comes first");
+    }
     session fresh = *s;
     fresh.pipeline = NULL;
     memset(fresh.cameras.pipelines, 0, sizeof(fresh.cameras.pipelines));

@@ -219,6 +219,9 @@ RLF_API rlf_result rlf_png_read_rgb_u16(const char *path, uint16_t **out, int32_
 RLF_API rlf_result rlf_picture_read(const char *path, rlf_image_rgba8 *out);
 /* Writes 8-bit colour with alpha. RLF_ERROR_IO names the file. */
 RLF_API rlf_result rlf_png_write_rgba(const char *path, const rlf_image_rgba8 *image);
+/* The same for colours that are premultiplied by alpha, as those of RLF_VIEW_BODIES; a PNG's are
+ * not, so they are divided by it. An opaque picture stays as it is. RLF_ERROR_IO names the file. */
+RLF_API rlf_result rlf_png_write_premultiplied(const char *path, const rlf_image_rgba8 *image);
 /* Writes 8-bit grey. RLF_ERROR_IO names the file. */
 RLF_API rlf_result rlf_png_write_u8(const char *path, const rlf_plane_u8 *plane);
 /* Writes 16-bit grey, width * height values row by row. RLF_ERROR_IO names the file. */

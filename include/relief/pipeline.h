@@ -164,6 +164,24 @@ RLF_API rlf_result rlf_pipeline_set_compositor(rlf_pipeline *pipeline, rlf_compo
 /* What a compositor for this pipeline must be made with. */
 RLF_API rlf_compositor_def rlf_pipeline_get_compositor_def(const rlf_pipeline *pipeline);
 
+/* Draws from a projector's lens from now on, in place of the colour camera's: RLF_VIEW_BODIES is
+ * then what it has to throw on the room. The projector is a camera that shines: its intrinsics with
+ * the lens, its size, and T_projector_depth, which takes points of the depth camera's frame
+ * (metres) to its own. Bodies keep the scene's light, and depth alone hides them
+ * (RLF_OCCLUSION_DEPTH), for the colour picture is not the projector's. Other views show the colour
+ * picture as if it were. Makes a soft renderer: give a GL one again with
+ * rlf_pipeline_set_compositor, of rlf_pipeline_get_compositor_def. May allocate. RLF_ERROR_INVALID
+ * names what is wrong with the lens or the pose, RLF_ERROR_MEMORY: it goes on as it was. */
+RLF_API rlf_result rlf_pipeline_set_projector(rlf_pipeline *pipeline, const rlf_camera *projector,
+                                              const rlf_pose *T_projector_depth);
+
+/* Draws pictures of that size from now on, e.g. half of it where a machine is too slow; 0 x 0 = the
+ * colour camera's, or the projector's. Makes a soft renderer, as above. May allocate.
+ * RLF_ERROR_INVALID for a size beyond RLF_IMAGE_SIZE_MAX, RLF_ERROR_MEMORY: it goes on as it was.
+ */
+RLF_API rlf_result rlf_pipeline_set_picture_size(rlf_pipeline *pipeline, int32_t width,
+                                                 int32_t height);
+
 /* One to four views side by side in the next pictures, each as large as the picture by itself: two
  * in a row, more in two rows. There is no matte of more than one. May allocate. */
 #define RLF_PIPELINE_VIEWS 4

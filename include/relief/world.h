@@ -157,6 +157,10 @@ RLF_API rlf_result rlf_world_add_body(rlf_world *world, const rlf_body_def *def,
 RLF_API void rlf_world_remove_body(rlf_world *world, rlf_body_id id);
 /* True when the id names a living body. */
 RLF_API bool rlf_world_has_body(const rlf_world *world, rlf_body_id id);
+/* What makes the body again as it is now, for rlf_world_add_body: the def that it was made from,
+ * with its place and velocities of now; the hull and the model are borrowed as before. So a body
+ * that is removed can come back. False, and *out as it was, for a stale id. */
+RLF_API bool rlf_world_get_body_def(const rlf_world *world, rlf_body_id id, rlf_body_def *out);
 /* Moves a body and sets its velocities. False for a stale id or non-finite values. */
 RLF_API bool rlf_world_set_body(rlf_world *world, rlf_body_id id, const rlf_pose *T_world_body,
                                 rlf_vec3 velocity, rlf_vec3 angular_velocity);

@@ -92,6 +92,7 @@ endif()
 
 if(TARGET relief_app AND RELIEF_WITH_VIEWER)
   relief_test(${PROJECT_SOURCE_DIR}/tests/app/test_recent.c app)
-  target_sources(test_recent PRIVATE ${PROJECT_SOURCE_DIR}/app/recent.c)
+  target_sources(test_recent PRIVATE ${PROJECT_SOURCE_DIR}/app/picture_file.c
+                 ${PROJECT_SOURCE_DIR}/app/recent.c ${PROJECT_SOURCE_DIR}/app/state_folder.c)
   target_include_directories(test_recent PRIVATE ${PROJECT_SOURCE_DIR}/app)
 endif()
