@@ -33,7 +33,7 @@ static const moved_word moved[] = {
     {"run", "lossless", "--record FILE.mcap?lossless=color"},
     {"run", "compression", "--record FILE.mcap?compression=NAME"},
     {"run", "fullscreen", "--window full"},
-    {"run", "monitor", "--window monitor=N"},
+    {"run", "monitor", "--window full=N"},
     {"run", "mirror", "--window mirror"},
     {"run", "overlay", "--window text=on, off or full"},
     {"run", "no-panel", "--window panel=off"},

@@ -147,7 +147,7 @@ static int refuse_key(const char *command, const option_def *o, const char *key)
 /* "key" or "key=value"; messages name the option and the key. */
 static int take_key(const char *command, const option_def *o, char *text)
 {
-    char name[NAME_SIZE];
+    char name[NAME_SIZE], bare[NAME_SIZE] = "";
     char *equal = strchr(text, '=');
     if (equal != NULL) {
         *equal = '\0';
@@ -163,10 +163,11 @@ static int take_key(const char *command, const option_def *o, char *text)
         if (is_flag && equal != NULL && strcmp(equal + 1, "1") != 0) {
             return command_usage(command, "--%s takes no value", name);
         }
-        if (!is_flag && equal == NULL) {
+        if (!is_flag && equal == NULL && k->bare == NULL) {
             return command_usage(command, "--%s=VALUE: the value is missing", name);
         }
-        return take(command, &named, equal != NULL ? equal + 1 : text);
+        (void)snprintf(bare, sizeof(bare), "%s", k->bare != NULL ? k->bare : "");
+        return take(command, &named, equal != NULL ? equal + 1 : bare);
     }
     return refuse_key(command, o, text);
 }

@@ -38,6 +38,7 @@ typedef struct option_def {
     /* What may follow the text, as a source's keys do: "DIR?every=30&shrink=2". A flag's value is
      * nothing or 1. A table as this one; NULL = none. */
     const struct option_def *keys;
+    const char *bare; /* value of a key that stands alone; NULL = it needs one */
 } option_def;
 
 /* Reads the options of argv, whole names only, and puts the arguments behind them, in their order;

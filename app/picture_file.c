@@ -18,7 +18,7 @@ static uint8_t mean_of(const rlf_image_rgba8 *image, int32_t factor, int32_t x, 
 rlf_result picture_file_write(const char *path, const rlf_image_rgba8 *image, int32_t factor)
 {
     if (factor == 1) {
-        return rlf_png_write_rgba(path, image);
+        return rlf_png_write_premultiplied(path, image);
     }
     rlf_image_rgba8 small = {.width = image->width / factor, .height = image->height / factor};
     if (small.width < 1 || small.height < 1) {
@@ -36,7 +36,7 @@ rlf_result picture_file_write(const char *path, const rlf_image_rgba8 *image, in
             row[i] = mean_of(image, factor, i / 4, y, i % 4);
         }
     }
-    rlf_result result = rlf_png_write_rgba(path, &small);
+    rlf_result result = rlf_png_write_premultiplied(path, &small);
     rlf_free(small.data);
     return result;
 }

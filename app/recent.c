@@ -2,41 +2,60 @@
 #define _XOPEN_SOURCE 700
 #include "recent.h"
 
-#include "relief/io.h"
+#include "picture_file.h"
+#include "state_folder.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#define PATH_SIZE 4096
+#define PICTURE_WIDTH 128 /* pixels, about */
 
-/* False without a home. */
-static bool find_folder(char out[PATH_SIZE])
+static FILE *open_list(const char *name, const char *mode)
 {
-    const char *state = getenv("XDG_STATE_HOME");
-    const char *home = getenv("HOME");
-    int length = -1;
-    if (state != NULL && state[0] == '/') {
-        length = snprintf(out, PATH_SIZE, "%s/relief", state);
-    } else if (home != NULL && home[0] == '/') {
-        length = snprintf(out, PATH_SIZE, "%s/.local/state/relief", home);
-    }
-    return length > 0 && length + (int)sizeof("/recent.part") <= PATH_SIZE;
+    char path[STATE_PATH_SIZE];
+    return state_path(name, path) ? fopen(path, mode) : NULL;
 }
 
-static FILE *open_list(const char *folder, const char *name, const char *mode)
+/* Named by the recording's path: FNV-1a of 64 bits. */
+static bool picture_path(const char *path, char out[STATE_PATH_SIZE])
 {
-    char path[PATH_SIZE];
-    const int length = snprintf(path, sizeof(path), "%s/%s", folder, name);
-    return length > 0 && length < PATH_SIZE ? fopen(path, mode) : NULL;
+    char name[48];
+    uint64_t hash = UINT64_C(14695981039346656037);
+    for (const char *c = path; *c != '\0'; c++) {
+        hash = (hash ^ (uint8_t)*c) * UINT64_C(1099511628211);
+    }
+    (void)snprintf(name, sizeof(name), "recent-%016llx.png", (unsigned long long)hash);
+    return state_path(name, out);
+}
+
+void recent_find_picture(const char *source, char *out, size_t size)
+{
+    char path[STATE_PATH_SIZE];
+    const bool is_there = picture_path(source, path) && access(path, R_OK) == 0;
+    const int length = snprintf(out, size, "%s", is_there ? path : "");
+    if (length < 0 || (size_t)length >= size) {
+        out[0] = '\0';
+    }
+}
+
+void recent_keep_picture(const char *source, const rlf_image_rgba8 *image)
+{
+    char path[STATE_PATH_SIZE];
+    char *whole = realpath(source, NULL);
+    if (whole != NULL && picture_path(whole, path) && access(path, R_OK) != 0 &&
+        state_make_folder()) {
+        const int32_t factor = image->width / PICTURE_WIDTH;
+        (void)picture_file_write(path, image, factor > 1 ? factor : 1);
+    }
+    free(whole);
 }
 
 void recent_load(recent_list *out)
 {
-    char folder[PATH_SIZE];
     out->count = 0;
-    FILE *file = find_folder(folder) ? open_list(folder, "recent", "r") : NULL;
+    FILE *file = open_list("recent", "r");
     while (file != NULL && out->count < RECENT_MAX) {
         char *line = out->paths[out->count];
         if (fgets(line, RECENT_SIZE, file) == NULL) {
@@ -50,23 +69,31 @@ void recent_load(recent_list *out)
     }
 }
 
-static void write_list(const char *folder, const char *first, const recent_list *others)
+static void write_list(const char *first, const recent_list *others)
 {
-    FILE *file = rlf_make_folder(folder) == RLF_OK ? open_list(folder, "recent.part", "w") : NULL;
+    char old[STATE_PATH_SIZE];
+    FILE *file = state_make_folder() ? open_list("recent.part", "w") : NULL;
     if (file == NULL) {
         return;
     }
     bool is_good = fprintf(file, "%s\n", first) > 0;
+    int32_t count = 1;
     for (int32_t i = 0; i < others->count; i++) {
-        if (strcmp(others->paths[i], first) != 0) {
+        if (strcmp(others->paths[i], first) == 0) {
+            continue;
+        }
+        if (count < RECENT_MAX) {
             is_good = fprintf(file, "%s\n", others->paths[i]) > 0 && is_good;
+            count++;
+        } else if (picture_path(others->paths[i], old)) {
+            (void)remove(old);
         }
     }
     is_good = fclose(file) == 0 && is_good;
-    char part[PATH_SIZE + 16];
-    char whole[PATH_SIZE + 16];
-    (void)snprintf(part, sizeof(part), "%s/recent.part", folder);
-    (void)snprintf(whole, sizeof(whole), "%s/recent", folder);
+    char part[STATE_PATH_SIZE];
+    char whole[STATE_PATH_SIZE];
+    (void)state_path("recent.part", part);
+    (void)state_path("recent", whole);
     if (!is_good || rename(part, whole) != 0) {
         (void)remove(part);
     }
@@ -74,13 +101,11 @@ static void write_list(const char *folder, const char *first, const recent_list 
 
 void recent_note(const char *source)
 {
-    char folder[PATH_SIZE];
     char *path = realpath(source, NULL);
-    if (path != NULL && strlen(path) + 2 <= RECENT_SIZE && strchr(path, '\n') == NULL &&
-        find_folder(folder)) {
+    if (path != NULL && strlen(path) + 2 <= RECENT_SIZE && strchr(path, '\n') == NULL) {
         recent_list list;
         recent_load(&list);
-        write_list(folder, path, &list);
+        write_list(path, &list);
     }
     free(path);
 }

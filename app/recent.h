@@ -2,7 +2,7 @@
 #ifndef RELIEF_APP_RECENT_H
 #define RELIEF_APP_RECENT_H
 
-#include "relief/base.h"
+#include "relief/image.h"
 
 #define RECENT_MAX 8
 #define RECENT_SIZE 1024
@@ -18,5 +18,10 @@ void recent_load(recent_list *out);
 /* Puts a recording first, if it is a file or folder. A list that cannot be written stays as it was:
  * it is of use, not of need. */
 void recent_note(const char *source);
+
+/* Path of the small picture of a recording; "" = it has none. */
+void recent_find_picture(const char *source, char *out, size_t size);
+/* Keeps one, of any size, for a recording that has none yet. What fails, fails quietly. */
+void recent_keep_picture(const char *source, const rlf_image_rgba8 *image);
 
 #endif

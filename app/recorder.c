@@ -17,8 +17,9 @@ struct recorder {
     recorder_options options;
     rlf_source_info info;
     char path[4096];
-    bool is_running; /* set under `fills`; the rest is there while it is */
-    bool is_ending;  /* no more comes; the thread still writes, until has_ended */
+    int64_t start_ns; /* of the running one */
+    bool is_running;  /* set under `fills`; the rest is there while it is */
+    bool is_ending;   /* no more comes; the thread still writes, until has_ended */
     _Atomic bool has_ended;
     rlf_recording *recording;
     record_queue queue;
@@ -136,6 +137,7 @@ static rlf_result start(recorder *r, const char *path)
     r->written = (rlf_recording_status){0};
     r->dropped = r->left = 0;
     r->leaves_rest = false;
+    r->start_ns = rlf_clock_ns();
     record_queue_init(&r->queue, &r->info.rig);
     if (pthread_create(&r->thread, NULL, write_all, r) != 0) {
         rlf_recording_close(&r->recording, NULL);
@@ -328,9 +330,11 @@ bool recorder_describe(recorder *r, char *out, size_t size)
         return false;
     }
     const recorder_status s = recorder_get_status(r);
-    snprintf(out, size, "REC %.60s  %llu frames, %.1f MB, %llu dropped%s", r->path,
-             (unsigned long long)s.written.frames, 1e-6 * (double)s.written.bytes,
-             (unsigned long long)s.dropped, recorder_has_failed(r) ? "  FAILED" : "");
+    const int64_t seconds = (rlf_clock_ns() - r->start_ns) / INT64_C(1000000000);
+    snprintf(out, size, "%d:%02d  %.60s  %llu frames, %.1f MB, %llu dropped%s", (int)(seconds / 60),
+             (int)(seconds % 60), r->path, (unsigned long long)s.written.frames,
+             1e-6 * (double)s.written.bytes, (unsigned long long)s.dropped,
+             recorder_has_failed(r) ? "  FAILED" : "");
     return true;
 }
 

@@ -1,5 +1,6 @@
 /* `relief run`: frames through the whole pipeline, in a window or headless. */
 #include "command.h"
+#include "kiosk.h"
 #include "parts.h"
 #include "run.h"
 #ifdef RLF_HAVE_GL
@@ -136,7 +137,8 @@ static void print_summary(const run_options *o, session *s, const run_output *ou
 {
     FILE *words = run_output_words(&o->output);
     const char *renderer = o->use_gl ? "renderer gl" : "renderer soft";
-    const rlf_source_status frames = rlf_source_get_status(s->source);
+    const rlf_source_status frames =
+        s->source != NULL ? rlf_source_get_status(s->source) : (rlf_source_status){0};
     run_output_print_summary(output, o->is_headless ? renderer : "in a window", &frames);
     run_room_print(&output->room, &o->room, rlf_pipeline_get_map(s->pipeline), words);
     recorder_print_summary(words, &o->session.record, recorded);
@@ -163,7 +165,7 @@ static int run_session(run_options *o, session *s, publisher *events)
     }
     publisher_end(events);
     const rlf_map *map = rlf_pipeline_get_map(s->pipeline);
-    if (result == RLF_OK) {
+    if (result == RLF_OK && s->source != NULL) { /* a kiosk's may be gone */
         result = run_room_write(&output.room, &o->room, map, &rlf_source_get_info(s->source)->rig);
     }
     int status = result == RLF_OK ? EXIT_DONE : command_failed();
@@ -209,6 +211,9 @@ static void choose_end(run_options *o)
 /* Everything is known but what the options leave to the run. */
 static int run_chosen(run_options *o)
 {
+    if (o->window.is_kiosk && kiosk_log_open(o->window.log_path) != RLF_OK) {
+        return command_failed();
+    }
     choose_end(o);
     o->session.record.is_switched = !o->is_headless || o->publish.count > 0;
     o->output.scene_path = o->session.scene_path;
@@ -218,7 +223,7 @@ static int run_chosen(run_options *o)
     o->session.enable_render = !o->is_headless || o->room.mesh_path == NULL ||
                                o->output.video_path != NULL || o->output.picture_folder != NULL;
     session s;
-    if (session_open(&o->session, &s) != RLF_OK) {
+    if ((o->window.is_kiosk ? kiosk_session_open : session_open)(&o->session, &s) != RLF_OK) {
         return command_not_opened("run");
     }
     publisher *events = NULL;
@@ -237,6 +242,7 @@ static int run_chosen(run_options *o)
     session_close(&s);
     publisher_destroy(&events);
     run_window_end();
+    kiosk_log_close();
     return status;
 }
 

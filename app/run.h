@@ -119,10 +119,11 @@ void run_output_print_summary(const run_output *out, const char *how,
 
 /* Of the window alone. */
 typedef struct run_window_options {
-    bool is_fullscreen, is_mirrored;
+    bool is_fullscreen, is_mirrored, is_kiosk, fills;
+    const char *log_path; /* of a kiosk; NULL = the usual one */
     bool shows_overlay, hides_overlay, hides_panel, has_light_panel;
     bool is_end_set; /* else by what is written: see run_window */
-    int32_t monitor; /* from 1; 0 = the primary one */
+    int32_t monitor; /* from 1; 0 = the one that the window is on */
 } run_window_options;
 
 typedef struct run_options {

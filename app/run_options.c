@@ -60,7 +60,7 @@ static void print_view_help(void)
     printf(
         "  --view NAME[,NAME...] camera (default), depth, normals, mesh, regions, foreground,\n"
         "                        background, velocity, thickness, reason, points, contacts,\n"
-        "                        known, hands, map;\n"
+        "                        known, hands, map, bodies;\n"
         "                        up to four of them side by side; key legend: what their\n"
         "                        colours mean, with units, in the picture ('depth?legend')\n"
         "  --orbit YAW,PITCH[,ZOOM]   where points and map are seen from: degrees to the\n"
@@ -79,17 +79,22 @@ static void print_help(void)
     printf(
         "usage: relief run [SOURCE] [OPTIONS]\n\n"
         "Runs a source with virtual bodies that collide with what the camera sees.\n"
-        "SOURCE: synthetic:room or a folder with a clip (see `relief list sources`); without one\n"
-        "the window lists cameras and recent recordings.\n\n"
+        "SOURCE: synthetic:room or a folder with a clip (see `relief list sources`), or a list of\n"
+        "cameras of one room, FILE.json; without one the window lists cameras and recent\n"
+        "recordings.\n\n"
         "  --scene NAME          bodies and gravity: a scene that `relief list scenes` tells, or "
         "a\n"
         "                        file scene.json; default: two thrown cubes\n"
         "  --profile NAME        live (default) or thesis\n"
         "  --renderer NAME       soft or gl; default: gl in a window, soft headless\n"
         "  --headless            no window: as fast as the machine can, every frame\n"
-        "  --window LIST         full (the picture alone), monitor=N (from 1), mirror, text=on, "
-        "off\n"
-        "                        or full (also in full screen), panel=off or light, and after a\n"
+        "  --window LIST         full (the picture alone), full=N (on monitor N), fill (cut, no\n"
+        "                        black bars), mirror, text=on, off or full (also in full screen),\n"
+        "                        panel=off or light; kiosk or kiosk=LOG (full, and opens the "
+        "source\n"
+        "                        again when it fails); projector=FILE (bodies alone, from the "
+        "lens\n"
+        "                        of a calibrated pair's second camera; also headless); after a\n"
         "                        recording end=loop (default), hold (bodies fall on over the last\n"
         "                        frame) or stop (default where frames are written or counted)\n"
         "  --frames N            stop after N frames\n");
@@ -235,6 +240,24 @@ static bool take_end(const char *text, void *out)
     return rlf_playback_parse(text, &o->session.end);
 }
 
+/* A monitor's number; 0 = the one that the window is on. */
+static bool take_full(const char *text, void *out)
+{
+    run_window_options *o = out;
+    char rest;
+    o->is_fullscreen = true;
+    return sscanf(text, "%d%c", &o->monitor, &rest) == 1 && o->monitor >= 0 && o->monitor <= 16;
+}
+
+/* "-": the usual log. */
+static bool take_kiosk(const char *text, void *out)
+{
+    run_window_options *o = out;
+    o->is_kiosk = o->is_fullscreen = true;
+    o->log_path = strcmp(text, "-") != 0 ? text : NULL;
+    return text[0] != '\0';
+}
+
 static bool take_overlay(const char *text, void *out)
 {
     run_window_options *o = out;
@@ -305,8 +328,20 @@ static const char *const *view_names(void)
 /* Of --window. */
 #define WINDOW_KEYS(o)                                                                             \
     {                                                                                              \
-        ROW_FLAG("full", &(o)->window.is_fullscreen),                                              \
-            ROW_INT32("monitor", &(o)->window.monitor, 1, 16),                                     \
+        {.name = "full",                                                                           \
+         .kind = OPTION_CHOICE,                                                                    \
+         .out = &(o)->window,                                                                      \
+         .take = take_full,                                                                        \
+         .choices = "use a monitor's number, 1 to 16",                                             \
+         .bare = "0"},                                                                             \
+            {.name = "kiosk",                                                                      \
+             .kind = OPTION_CHOICE,                                                                \
+             .out = &(o)->window,                                                                  \
+             .take = take_kiosk,                                                                   \
+             .choices = "use the name of a log file",                                              \
+             .bare = "-"},                                                                         \
+            ROW_FLAG("fill", &(o)->window.fills),                                                  \
+            ROW_TEXT("projector", &(o)->session.projector_path),                                   \
             ROW_FLAG("mirror", &(o)->window.is_mirrored),                                          \
             ROW_CHOICE("text", &(o)->window, take_overlay, "use on, off or full"),                 \
             ROW_CHOICE("panel", &(o)->window, take_panel, "use on, light or off"),                 \
@@ -452,5 +487,9 @@ int run_parse(int argc, char **argv, run_options *o)
     o->session.makes_map = keeps_room;
     o->session.map_is_whole = keeps_room && o->is_headless;
     o->session.source = argv[optind]; /* NULL when there is none */
+    if (o->session.projector_path != NULL) {
+        o->views[0] = RLF_VIEW_BODIES;
+        o->view_count = 1;
+    }
     return -1;
 }

@@ -1,11 +1,12 @@
 /* Video, pictures and logs of a run. */
-#define _POSIX_C_SOURCE 200809L
+#define _XOPEN_SOURCE 700
 #include "run.h"
 
 #include "command.h"
 #include "picture_file.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -73,8 +74,11 @@ rlf_result run_output_save(run_output *out, const rlf_image_rgba8 *image, char *
     if (length < 0 || length >= PATH_SIZE) {
         return rlf_fail(RLF_ERROR_IO, "%s: the path is too long", folder);
     }
-    snprintf(out_message, message_size, "saved %s", path);
-    return rlf_png_write_rgba(path, image);
+    const rlf_result result = rlf_png_write_premultiplied(path, image);
+    char *whole = result == RLF_OK ? realpath(path, NULL) : NULL;
+    snprintf(out_message, message_size, "saved %s", whole != NULL ? whole : path);
+    free(whole);
+    return result;
 }
 
 rlf_result run_output_save_scene(const run_output *out, const rlf_known_def *known, int32_t count,

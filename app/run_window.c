@@ -4,6 +4,7 @@
 #include "body_model.h"
 #include "command.h"
 #include "recent.h"
+#include "state_folder.h"
 #include "window_choices.h"
 #include "relief/window.h"
 
@@ -21,9 +22,15 @@ typedef struct run_stage {
     int32_t first_setting;           /* those before are the command line's */
 } run_stage;
 
+/* One second is enough for cameras to settle, and for bodies to be seen. */
+#define PICTURE_FRAME 30
+
 static rlf_result on_frame(void *context, const rlf_pipeline_output *frame)
 {
     const run_stage *stage = context;
+    if (frame->frame_index == PICTURE_FRAME && frame->frame.color.data != NULL) {
+        recent_keep_picture(stage->options.session.source, &frame->frame.color);
+    }
     const rlf_result result = run_output_add(stage->output, frame);
     publisher_apply(stage->output->publisher, stage->session->pipeline, stage->output->recorder);
     return result;
@@ -49,7 +56,9 @@ static rlf_result on_scene(void *context, const rlf_known_def *known, int32_t co
 static rlf_result on_record(void *context, char *out_message, size_t message_size)
 {
     run_stage *stage = context;
-    return recorder_toggle(stage->output->recorder, out_message, message_size);
+    recorder *r = stage->output->recorder;
+    return r != NULL ? recorder_toggle(r, out_message, message_size)
+                     : rlf_fail(RLF_ERROR_UNSUPPORTED, "no source to record now");
 }
 
 static bool on_status(void *context, char *out, size_t size)
@@ -139,6 +148,16 @@ static rlf_result open_source(run_stage *stage, const char *text)
     return RLF_OK;
 }
 
+/* A kiosk's source, which is gone. What --record was writing is whole and stays. */
+static rlf_result open_again(run_stage *stage)
+{
+    stage->output->recorder = NULL;
+    stage->options.session.record.path = NULL;
+    const rlf_result result = session_again(stage->session, &stage->options.session);
+    stage->output->recorder = stage->session->recorder;
+    return result;
+}
+
 static rlf_result open_scene(run_stage *stage, const char *text)
 {
     session_options wanted = stage->options.session;
@@ -219,6 +238,7 @@ static rlf_result on_open(void *context, rlf_window_opening what, const char *te
     case RLF_WINDOW_OPEN_SOURCE: result = open_source(stage, text); break;
     case RLF_WINDOW_OPEN_SCENE: result = open_scene(stage, text); break;
     case RLF_WINDOW_OPEN_SETTING: result = open_setting(stage, text); break;
+    case RLF_WINDOW_OPEN_AGAIN: result = open_again(stage); break;
     }
     if (result == RLF_OK) {
         fill_stage(stage->session, &stage->options, out);
@@ -247,6 +267,15 @@ static void set_callbacks(rlf_window_def *viewer, run_stage *stage)
 
 /* Large, and its models live until the session is closed. */
 static run_stage stage;
+static char corners_path[STATE_PATH_SIZE];
+
+/* Each monitor may be a projector of its own. */
+static const char *name_corners(int32_t monitor)
+{
+    char name[32];
+    (void)snprintf(name, sizeof(name), "corners-%d", (int)monitor);
+    return state_make_folder() && state_path(name, corners_path) ? corners_path : NULL;
+}
 
 void run_window_end(void)
 {
@@ -277,6 +306,11 @@ rlf_result run_window(const run_options *o, session *s, run_output *output)
     viewer.hides_panel = o->window.hides_panel;
     viewer.has_light_panel = o->window.has_light_panel;
     viewer.monitor = o->window.monitor;
+    viewer.fills = o->window.fills;
+    viewer.is_kiosk = o->window.is_kiosk;
+    viewer.keeps_size = o->output.video_path != NULL || o->output.picture_folder != NULL;
+    viewer.keeps_view = o->session.projector_path != NULL;
+    viewer.corners_path = name_corners(o->window.monitor);
     set_callbacks(&viewer, &stage);
     return rlf_window_run(s->pipeline, &viewer);
 }

@@ -1,6 +1,7 @@
 /* Opens and closes what a run needs. */
 #define _POSIX_C_SOURCE 200809L
 #include "session.h"
+#include "session_cameras.h"
 
 #include <string.h>
 #include <sys/stat.h>
@@ -77,6 +78,25 @@ static rlf_result open_recorder(const session_options *options, session *s)
     return result == RLF_OK ? recorder_tap(s->recorder, &s->source) : result;
 }
 
+/* The pair's second camera is the projector, which shines where a camera looks. */
+static rlf_result set_projector(const char *path, rlf_pipeline *pipeline)
+{
+    rlf_rig rig;
+    double units;
+    if (path == NULL) {
+        return RLF_OK;
+    }
+    const rlf_result result = rlf_rig_load(path, &rig, &units);
+    if (result == RLF_OK && !rig.has_color) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "%s: has one camera: a projector needs a calibrated pair, of the depth "
+                        "camera and the projector (relief calibrate)",
+                        path);
+    }
+    return result == RLF_OK ? rlf_pipeline_set_projector(pipeline, &rig.color, &rig.T_color_depth)
+                            : result;
+}
+
 static rlf_result create_pipeline(const session_options *options, session *s)
 {
     const rlf_source_info *info = rlf_source_get_info(s->source);
@@ -90,7 +110,9 @@ static rlf_result create_pipeline(const session_options *options, session *s)
     settings_warn(&options->settings, &def.reconstruct);
     def.enable_render = options->enable_render;
     def.enable_hands = options->enable_hands;
-    def.camera = options->camera;
+    def.camera = s->cameras.count > 1 ? RLF_CAMERA_FIXED : options->camera;
+    def.world.camera_capacity = s->cameras.count;
+    def.T_world_camera = s->cameras.places[0].T_world_camera;
     def.poses = options->poses;
     def.map = s->map;
     def.world.enable_grab = options->enable_grab;
@@ -106,7 +128,18 @@ static rlf_result create_pipeline(const session_options *options, session *s)
     def.compositor.enable_real_shade = !options->no_real_shade;
     def.compositor.enable_real_ambient = !options->no_real_ambient;
     s->reconstruct = def.reconstruct;
-    return rlf_pipeline_create(&def, &s->pipeline);
+    rlf_result result = rlf_pipeline_create(&def, &s->pipeline);
+    if (result == RLF_OK) {
+        result = session_cameras_join(&s->cameras, &def, s->pipeline);
+    }
+    if (result == RLF_OK) {
+        result = set_projector(options->projector_path, s->pipeline);
+    }
+    if (result != RLF_OK) {
+        session_cameras_leave(&s->cameras);
+        rlf_pipeline_destroy(&s->pipeline);
+    }
+    return result;
 }
 
 /* A block of a map has 1.2 times its bytes in the file; the rest is for what the room grows by. */
@@ -138,11 +171,27 @@ static rlf_result open_map(const session_options *options, session *s)
     return result == RLF_OK && path != NULL ? rlf_map_read_file(s->map, path) : result;
 }
 
+/* Of several cameras none moves: where they stand is known. */
+static rlf_result open_sources(const session_options *options, session *s)
+{
+    rlf_result result = session_cameras_find(options->source, &s->cameras);
+    if (result != RLF_OK) {
+        return result;
+    }
+    const char *first = s->cameras.places[0].source;
+    if (s->cameras.count > 1 && options->is_camera_set && options->camera != RLF_CAMERA_FIXED) {
+        return rlf_fail(RLF_ERROR_INVALID, "%s: its cameras stand: leave out --camera",
+                        options->source);
+    }
+    result = rlf_open_source(first[0] != '\0' ? first : options->source, s->pool, &s->source);
+    return result == RLF_OK ? session_cameras_open(&s->cameras, s->pool) : result;
+}
+
 static rlf_result open_all(const session_options *options, session *s)
 {
     rlf_result result = rlf_pool_create(options->thread_count, &s->pool);
     if (result == RLF_OK) {
-        result = rlf_open_source(options->source, s->pool, &s->source);
+        result = open_sources(options, s);
     }
     if (result == RLF_OK) {
         result = open_scene(options, &s->scene);
@@ -172,6 +221,7 @@ rlf_result session_open(const session_options *options, session *out)
 void session_close(session *s)
 {
     recorder_destroy(&s->recorder, NULL);
+    session_cameras_close(&s->cameras);
     rlf_pipeline_destroy(&s->pipeline);
     rlf_map_destroy(&s->map);
     rlf_scene_destroy(&s->scene);
@@ -190,10 +240,23 @@ rlf_result session_replace(session *s, const session_options *options)
     return result;
 }
 
+rlf_result session_again(session *s, const session_options *options)
+{
+    (void)recorder_destroy(&s->recorder, NULL);
+    session_cameras_close(&s->cameras);
+    rlf_source_destroy(&s->source);
+    s->playback = NULL; /* was the source's */
+    return session_replace(s, options);
+}
+
 rlf_result session_renew(session *s, const session_options *options)
 {
+    if (s->source == NULL) {
+        return rlf_fail(RLF_ERROR_UNSUPPORTED, "there is no source now, and it comes first");
+    }
     session fresh = *s;
     fresh.pipeline = NULL;
+    memset(fresh.cameras.pipelines, 0, sizeof(fresh.cameras.pipelines));
     memset(&fresh.scene, 0, sizeof(fresh.scene));
     rlf_result result = open_scene(options, &fresh.scene);
     if (result == RLF_OK) {
@@ -201,6 +264,7 @@ rlf_result session_renew(session *s, const session_options *options)
     }
     rlf_scene *unused = result == RLF_OK ? &s->scene : &fresh.scene;
     if (result == RLF_OK) {
+        session_cameras_leave(&s->cameras);
         rlf_pipeline_destroy(&s->pipeline);
     }
     rlf_scene_destroy(unused);

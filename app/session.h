@@ -39,11 +39,21 @@ typedef struct session_options {
     const char *map_path; /* of a room that is known; NULL = none */
     bool makes_map;       /* an empty one where none is known, as follows; 0 = the default */
     int32_t voxel_mm, map_memory_mb;
-    bool map_is_whole; /* every frame into all of its blocks, as nobody waits */
+    const char *projector_path; /* calibration of the lens to draw from; NULL = the camera's */
+    bool map_is_whole;          /* every frame into all of its blocks, as nobody waits */
 } session_options;
+
+/* What a SOURCE names: one camera, or those of a list (rlf_cameras_load). */
+typedef struct session_cameras {
+    rlf_placed_camera places[RLF_WORLD_CAMERAS_MAX];
+    int32_t count;
+    rlf_source *sources[RLF_WORLD_CAMERAS_MAX]; /* but the first, which is the session's */
+    rlf_pipeline *pipelines[RLF_WORLD_CAMERAS_MAX];
+} session_cameras;
 
 typedef struct session {
     rlf_pool *pool;
+    session_cameras cameras;
     rlf_source *source;
     rlf_scene scene;
     rlf_map *map; /* that is known or will be; NULL = the pipeline's own */
@@ -59,6 +69,9 @@ rlf_result session_open(const session_options *options, session *out);
 void session_close(session *s);
 /* Opens all four anew and then closes the old ones; on failure they go on as they were. */
 rlf_result session_replace(session *s, const session_options *options);
+/* The source again, which has ended or failed: it is closed first, as a camera cannot be open
+ * twice. On failure there is none, and the pipeline goes on without it: call this once more. */
+rlf_result session_again(session *s, const session_options *options);
 /* Scene and pipeline alone, for the same source and pool; on failure the old ones go on. */
 rlf_result session_renew(session *s, const session_options *options);
 

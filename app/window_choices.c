@@ -32,7 +32,7 @@ static int32_t list_folder(const char *folder, rlf_window_choice *out)
             const char *name = entries[i]->d_name;
             (void)snprintf(c->source, sizeof(c->source), "%.700s/%.255s", folder, name);
             (void)snprintf(c->text, sizeof(c->text), "%.*s", (int)strlen(name) - 5, name);
-            c->scene[0] = '\0';
+            c->scene[0] = c->picture[0] = '\0';
         }
         free(entries[i]);
     }
@@ -67,9 +67,22 @@ int32_t scene_list(const char *scene_path, rlf_window_choice *out)
         rlf_window_choice *c = &out[count++];
         (void)snprintf(c->source, sizeof(c->source), "%s", entries[i].path);
         (void)snprintf(c->text, sizeof(c->text), "%.95s", entries[i].name);
-        c->scene[0] = '\0';
+        c->scene[0] = c->picture[0] = '\0';
     }
     return count;
+}
+
+/* Beside the scenes lie their pictures: scenes/rain.json has scenes/pictures/rain.png. */
+static void find_scene_picture(const char *path, char *out, size_t size)
+{
+    const char *slash = strrchr(path, '/');
+    const char *name = slash != NULL ? slash + 1 : path;
+    const int length = (int)strlen(name) - (int)strlen(".json");
+    const int written = snprintf(out, size, "%.*spictures/%.*s.png", (int)(name - path), path,
+                                 length > 0 ? length : 0, name);
+    if (written < 0 || (size_t)written >= size || access(out, R_OK) != 0) {
+        out[0] = '\0';
+    }
 }
 
 /* The simulated rooms are always there; recordings are where they were built. */
@@ -92,6 +105,7 @@ int32_t scene_list_played(rlf_window_choice *out, int32_t capacity)
         (void)snprintf(c->source, sizeof(c->source), "%s", e->source);
         (void)snprintf(c->scene, sizeof(c->scene), "%s", e->path);
         (void)snprintf(c->text, sizeof(c->text), "scene %.30s: %.120s", e->name, e->about);
+        find_scene_picture(e->path, c->picture, sizeof(c->picture));
     }
     return count;
 }
@@ -116,21 +130,26 @@ int32_t start_page_list(rlf_window_choice *out)
     for (int32_t i = 0; i < found && i < CAMERAS_MAX; i++) {
         rlf_window_choice *c = &out[count++];
         (void)snprintf(c->source, sizeof(c->source), "%.255s", cameras[i].source);
-        c->scene[0] = '\0';
+        c->scene[0] = c->picture[0] = '\0';
         (void)snprintf(c->text, sizeof(c->text), "camera: %.80s", cameras[i].description);
     }
     rlf_window_choice *room = &out[count++];
     (void)snprintf(room->source, sizeof(room->source), "synthetic:room");
-    room->scene[0] = '\0';
+    room->scene[0] = room->picture[0] = '\0';
     (void)snprintf(room->text, sizeof(room->text), "simulated room%s",
                    found <= 0 ? " (no camera is plugged in)" : "");
+    char demo[SCENE_PATH];
+    if (scene_files_find_shipped("demo", demo)) {
+        find_scene_picture(demo, room->picture, sizeof(room->picture));
+    }
     recent_list recent;
     recent_load(&recent);
     for (int32_t i = 0; i < recent.count; i++) {
         rlf_window_choice *c = &out[count++];
         (void)snprintf(c->source, sizeof(c->source), "%.1023s", recent.paths[i]);
-        c->scene[0] = '\0';
+        c->scene[0] = c->picture[0] = '\0';
         (void)snprintf(c->text, sizeof(c->text), "recent: %s", end_of(recent.paths[i]));
+        recent_find_picture(recent.paths[i], c->picture, sizeof(c->picture));
     }
     return count;
 }

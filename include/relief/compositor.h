@@ -28,8 +28,11 @@ typedef enum rlf_view {
                                its impulse */
     RLF_VIEW_KNOWN = 12,    /* camera, with the models of real things as wireframes */
     RLF_VIEW_HANDS = 13,    /* camera, with the marks of the input: palms, finger tips, gestures */
-    RLF_VIEW_MAP = 14, /* the fused room and the bodies from anywhere: orbit; the camera's way */
-    RLF_VIEW_COUNT = 15
+    RLF_VIEW_MAP = 14,    /* the fused room and the bodies from anywhere: orbit; the camera's way */
+    RLF_VIEW_BODIES = 15, /* the bodies of the camera's view alone, over black: colours
+                             premultiplied by the picture's own alpha, which is the matte; nothing
+                             is opaque where there is no body */
+    RLF_VIEW_COUNT = 16
 } rlf_view;
 
 /* Name as in `--view`, e.g. "normals"; NULL outside the range. */

@@ -29,6 +29,13 @@ typedef struct rlf_gl_presenter rlf_gl_presenter;
 RLF_API rlf_result rlf_gl_presenter_create(rlf_gl_presenter **out);
 /* Frees what it has in the context and nulls the pointer. NULL and a NULL presenter are allowed. */
 RLF_API void rlf_gl_presenter_destroy(rlf_gl_presenter **presenter);
+/* How later images are placed. `fills`: as large as the framebuffer, and what is beyond it is cut;
+ * default false: black bars. `map` takes places of the framebuffer to places of the
+ * rectangle that images are fitted into, both as shares of width and height from the top left: a
+ * homography, for a projector that stands askew. What it takes to outside is black. NULL = the same
+ * place, the default. */
+RLF_API void rlf_gl_presenter_set_place(rlf_gl_presenter *presenter, bool fills,
+                                        const rlf_mat3 *map);
 /* `image` is borrowed for the call: any size, opaque. framebuffer_width and height in pixels, which
  * is more than a window's size on screens with fine pixels. Does not swap buffers. */
 RLF_API void rlf_gl_presenter_draw(rlf_gl_presenter *presenter, const rlf_image_rgba8 *image,

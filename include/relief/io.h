@@ -164,6 +164,19 @@ RLF_API rlf_ros2_status rlf_ros2_publisher_get_status(rlf_ros2_publisher *publis
  */
 RLF_API void rlf_ros2_publisher_close(rlf_ros2_publisher **publisher);
 
+/* ---- several cameras
+ * --------------------------------------------------------------------------------------- */
+
+/* One of the cameras that see the same room. */
+typedef struct rlf_placed_camera {
+    char source[1024];       /* for rlf_open_source */
+    rlf_pose T_world_camera; /* depth camera in the world of them all */
+} rlf_placed_camera;
+
+/* Reads a file that lists cameras (docs/formats.md): 1 to RLF_WORLD_CAMERAS_MAX of them, for
+ * which `out` has room, and *out_count. Sources that are files lie beside the list. */
+RLF_API rlf_result rlf_cameras_load(const char *path, rlf_placed_camera *out, int32_t *out_count);
+
 /* ---- scenes
  * ----------------------------------------------------------------------------------------- */
 
@@ -206,6 +219,9 @@ RLF_API rlf_result rlf_png_read_rgb_u16(const char *path, uint16_t **out, int32_
 RLF_API rlf_result rlf_picture_read(const char *path, rlf_image_rgba8 *out);
 /* Writes 8-bit colour with alpha. RLF_ERROR_IO names the file. */
 RLF_API rlf_result rlf_png_write_rgba(const char *path, const rlf_image_rgba8 *image);
+/* The same for colours that are premultiplied by alpha, as those of RLF_VIEW_BODIES; a PNG's are
+ * not, so they are divided by it. An opaque picture stays as it is. RLF_ERROR_IO names the file. */
+RLF_API rlf_result rlf_png_write_premultiplied(const char *path, const rlf_image_rgba8 *image);
 /* Writes 8-bit grey. RLF_ERROR_IO names the file. */
 RLF_API rlf_result rlf_png_write_u8(const char *path, const rlf_plane_u8 *plane);
 /* Writes 16-bit grey, width * height values row by row. RLF_ERROR_IO names the file. */

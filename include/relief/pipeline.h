@@ -97,6 +97,14 @@ typedef struct rlf_pipeline_def {
      * blocks is a known room: the camera is looked for in it, and its world is the world. NULL
      * (default): a room of the pipeline's own, empty, made when it is needed. */
     rlf_map *map;
+    /* Another camera of the same room, whose world this one shares: bodies collide with what either
+     * sees, and each draws its own picture. Borrowed; it must outlive this one. Its def.world has
+     * a camera_capacity for both, this def's T_world_camera says where this camera stands in that
+     * world, and scene, map and a camera that moves are the other's alone. The other's step takes a
+     * frame of this one's source, too, before it advances the world; frames that are pushed come
+     * before that step. rlf_pipeline_redraw gives this one's picture. NULL (default): this pipeline
+     * has a world of its own. */
+    struct rlf_pipeline *joins;
     rlf_surface_fn replace_surface; /* default NULL: physics gets what was sensed */
     void *replace_context;          /* given to replace_surface */
     rlf_pool *pool;                 /* borrowed; NULL = one thread */
@@ -156,6 +164,24 @@ RLF_API void rlf_pipeline_destroy(rlf_pipeline **pipeline);
 RLF_API rlf_result rlf_pipeline_set_compositor(rlf_pipeline *pipeline, rlf_compositor *compositor);
 /* What a compositor for this pipeline must be made with. */
 RLF_API rlf_compositor_def rlf_pipeline_get_compositor_def(const rlf_pipeline *pipeline);
+
+/* Draws from a projector's lens from now on, in place of the colour camera's: RLF_VIEW_BODIES is
+ * then what it has to throw on the room. The projector is a camera that shines: its intrinsics with
+ * the lens, its size, and T_projector_depth, which takes points of the depth camera's frame
+ * (metres) to its own. Bodies keep the scene's light, and depth alone hides them
+ * (RLF_OCCLUSION_DEPTH), for the colour picture is not the projector's. Other views show the colour
+ * picture as if it were. Makes a soft renderer: give a GL one again with
+ * rlf_pipeline_set_compositor, of rlf_pipeline_get_compositor_def. May allocate. RLF_ERROR_INVALID
+ * names what is wrong with the lens or the pose, RLF_ERROR_MEMORY: it goes on as it was. */
+RLF_API rlf_result rlf_pipeline_set_projector(rlf_pipeline *pipeline, const rlf_camera *projector,
+                                              const rlf_pose *T_projector_depth);
+
+/* Draws pictures of that size from now on, e.g. half of it where a machine is too slow; 0 x 0 = the
+ * colour camera's, or the projector's. Makes a soft renderer, as above. May allocate.
+ * RLF_ERROR_INVALID for a size beyond RLF_IMAGE_SIZE_MAX, RLF_ERROR_MEMORY: it goes on as it was.
+ */
+RLF_API rlf_result rlf_pipeline_set_picture_size(rlf_pipeline *pipeline, int32_t width,
+                                                 int32_t height);
 
 /* One to four views side by side in the next pictures, each as large as the picture by itself: two
  * in a row, more in two rows. There is no matte of more than one. May allocate. */

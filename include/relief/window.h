@@ -29,6 +29,8 @@ typedef struct rlf_window_choice {
     char source[RLF_WINDOW_SOURCE_SIZE]; /* as rlf_source_open takes it */
     char scene[RLF_WINDOW_SOURCE_SIZE];  /* file to play it with; "" = the default one */
     char text[160];                      /* what the window shows of it */
+    char
+        picture[RLF_WINDOW_SOURCE_SIZE]; /* file of a small picture of it, PNG or JPEG; "" = none */
 } rlf_window_choice;
 
 /* Lists what there is to choose: fills at most RLF_WINDOW_CHOICES_MAX, returns how many. */
@@ -73,12 +75,14 @@ typedef struct rlf_window_stage {
 
 /* What to open in place of what is shown. */
 typedef enum rlf_window_opening {
-    RLF_WINDOW_OPEN_SOURCE, /* `text` names it */
-    RLF_WINDOW_OPEN_SCENE,  /* a scene file; "" = the default one */
-    RLF_WINDOW_OPEN_SETTING /* "NAME=VALUE" of the surface; "" = all as the profile has them */
+    RLF_WINDOW_OPEN_SOURCE,  /* `text` names it */
+    RLF_WINDOW_OPEN_SCENE,   /* a scene file; "" = the default one */
+    RLF_WINDOW_OPEN_SETTING, /* "NAME=VALUE" of the surface; "" = all as the profile has them */
+    RLF_WINDOW_OPEN_AGAIN    /* the source as before, of a kiosk: it has ended or failed */
 } rlf_window_opening;
 
-/* Fills *out with a new stage and closes the old one. On failure the old one goes on. */
+/* Fills *out with a new stage and closes the old one. On failure the old one goes on; but for
+ * RLF_WINDOW_OPEN_AGAIN the old source is closed first, and the pipeline alone goes on. */
 typedef rlf_result (*rlf_window_open_fn)(void *context, rlf_window_opening what, const char *text,
                                          rlf_window_stage *out);
 /* Makes a model file the shape of bodies, `size_m` metres along its longest side. What it gives
@@ -121,7 +125,16 @@ typedef struct rlf_window_def {
     bool is_mirrored;        /* as a mirror shows it; default false */
     bool hides_panel;        /* default false */
     bool has_light_panel;    /* dark letters on a light panel; default false */
-    int32_t monitor;         /* from 1; 0 = the primary one */
+    bool fills;              /* the picture is as large as the window and cut; else black bars.
+                                Default false */
+    bool is_kiosk;   /* nobody attends it: full screen without a pointer, that comes back with
+                        a monitor; a source that ends, fails or gives nothing for 10 s is
+                        opened again by on_open; errors go to rlf_log alone. Default false */
+    bool keeps_size; /* of the picture, which the soft renderer halves where the machine cannot keep
+                        the source's rate; for what is written. Default false */
+    bool keeps_view; /* keys and panel do not change it, as of a projector; default false */
+    const char *corners_path; /* file to keep the picture's corners in; NULL = they are not kept */
+    int32_t monitor;          /* from 1; 0 = the one that the window is on */
     rlf_view views[RLF_PIPELINE_VIEWS];       /* to start with */
     int32_t view_count;                       /* 1, or 2 side by side; default 1 */
     rlf_orbit orbit;                          /* likewise */

@@ -81,6 +81,11 @@ typedef struct rlf_grid {
     int64_t time_ns;                /* when it was seen */
     const rlf_grid_hand *hands;     /* that may grab, at time_ns; NULL = none are known */
     int32_t hand_count;             /* 0..RLF_GRID_HANDS_MAX */
+    /* Live: what another camera sees of the same room, or NULL; and so on. Bodies collide with
+     * what any of them sees, and with no guess about what another one sees to be free. */
+    const struct rlf_grid *next;
+    int32_t camera; /* which one this is: 0 for the first of the list, others below
+                       rlf_world_def.camera_capacity, each once and the same in every advance */
 } rlf_grid;
 
 /* ---- world
@@ -92,6 +97,9 @@ typedef enum rlf_physics_method {
     RLF_PHYSICS_THESIS =
         1 /* chapter 4.3: Euler, matrix orientation, region boxes, point impulses */
 } rlf_physics_method;
+
+/* Most cameras that see the room of one world. */
+#define RLF_WORLD_CAMERAS_MAX 8
 
 /* What a world is made of. From rlf_world_def_default; sizes are taken at create. */
 typedef struct rlf_world_def {
@@ -108,7 +116,9 @@ typedef struct rlf_world_def {
     rlf_border border;         /* live: what the background is beyond the view; default extend */
     bool enable_grab; /* live: bodies on which the grid's hands close, or that its pixels hold
                          between two sides, are held until these open; default false */
-    rlf_pool *pool;   /* borrowed; NULL = one thread */
+    int32_t camera_capacity; /* live: cameras that see the room, 1 to RLF_WORLD_CAMERAS_MAX;
+                                default 1 */
+    rlf_pool *pool;          /* borrowed; NULL = one thread */
 } rlf_world_def;
 
 /* The defaults that the fields name. */
@@ -163,6 +173,10 @@ RLF_API rlf_result rlf_world_add_body(rlf_world *world, const rlf_body_def *def,
 RLF_API void rlf_world_remove_body(rlf_world *world, rlf_body_id id);
 /* True when the id names a living body. */
 RLF_API bool rlf_world_has_body(const rlf_world *world, rlf_body_id id);
+/* What makes the body again as it is now, for rlf_world_add_body: the def that it was made from,
+ * with its place and velocities of now; the hull and the model are borrowed as before. So a body
+ * that is removed can come back. False, and *out as it was, for a stale id. */
+RLF_API bool rlf_world_get_body_def(const rlf_world *world, rlf_body_id id, rlf_body_def *out);
 /* Moves a body and sets its velocities. False for a stale id or non-finite values. */
 RLF_API bool rlf_world_set_body(rlf_world *world, rlf_body_id id, const rlf_pose *T_world_body,
                                 rlf_vec3 velocity, rlf_vec3 angular_velocity);

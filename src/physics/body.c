@@ -222,3 +222,35 @@ bool rlf_world_has_body(const rlf_world *world, rlf_body_id id)
 {
     return RLF_ASSERT(world != NULL) && phys_find_body(world, id) >= 0;
 }
+
+bool rlf_world_get_body_def(const rlf_world *world, rlf_body_id id, rlf_body_def *out)
+{
+    const int32_t index = RLF_ASSERT(world != NULL && out != NULL) ? phys_find_body(world, id) : -1;
+    if (index < 0) {
+        return false;
+    }
+    const phys_body *body = &world->bodies[index];
+    *out = (rlf_body_def){
+        .cookie = RLF_DEF_COOKIE,
+        .shape = body->shape.shape,
+        .look = body->look,
+        .mass = body->mass,
+        .position = body->x,
+        .orientation = body->q,
+        .velocity = body->is_held ? body->throw_v : body->v,
+        .angular_velocity = body->is_held ? body->throw_w : body->w,
+        .restitution = body->restitution,
+        .friction = body->friction,
+        .gravity_scale = body->gravity_scale,
+        .release_time = body->release_time,
+        .collides_with_bodies = body->collides_with_bodies,
+        .rolling_resistance = body->rolling_resistance,
+        .linear_damping = body->linear_damping,
+        .angular_damping = body->angular_damping,
+        .is_kinematic = body->is_kinematic,
+        .is_real = body->is_real,
+    };
+    memcpy(out->name, body->name, sizeof(out->name));
+    memcpy(out->color, body->color, sizeof(out->color));
+    return true;
+}

@@ -69,7 +69,8 @@ typedef struct phys_body {
     int64_t surface_version;       /* ... and what stays, 0 = something moved near it */
     rlf_vec3 surface_v, surface_w; /* v and w then */
     rlf_vec3 surface_flow;         /* velocity of the foreground near it, grid frame */
-    uint8_t side[2]; /* field_state: which side of foreground and background it belongs to */
+    /* field_state: which side of each camera's foreground and background it belongs to */
+    uint8_t side[RLF_WORLD_CAMERAS_MAX][2];
 
     struct phys_grab *grab; /* the hand that holds it, or NULL; see grab/grab.h */
     double soft_until;      /* s of the world: until then hands do not push it, they close on it */

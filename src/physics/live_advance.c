@@ -50,60 +50,97 @@ static void find_room(rlf_world *world, const rlf_grid *grid)
     room_planes_update(&world->room, grid);
 }
 
-/* Whether what stays is that of the last grid. */
-static bool is_same_background(rlf_world *world, const rlf_grid *grid)
+/* Whether what stays is that of the camera's last grid. */
+static bool is_same_background(phys_view *view, const rlf_grid *grid)
 {
     const rlf_grid_sheet *sheet = &grid->background;
-    bool is_same = world->has_grid && sheet->version != 0 &&
-                   sheet->version == world->background_version &&
-                   sheet->depth == world->background_depth &&
-                   memcmp(&world->grid_pose, &grid->T_world_grid, sizeof(rlf_pose)) == 0;
-    world->background_version = sheet->version;
-    world->background_depth = sheet->depth;
-    world->grid_pose = grid->T_world_grid;
+    bool is_same = view->has_grid && sheet->version != 0 &&
+                   sheet->version == view->background_version &&
+                   sheet->depth == view->background_depth &&
+                   memcmp(&view->pose, &grid->T_world_grid, sizeof(rlf_pose)) == 0;
+    view->background_version = sheet->version;
+    view->background_depth = sheet->depth;
+    view->pose = grid->T_world_grid;
     return is_same;
 }
 
 /* A new grid shows the surface at the end of the advance that brings it; the same one again is
- * extrapolated. Device clock and world clock need not agree. */
-static bool start_surface(rlf_world *world, const rlf_grid *grid, double dt)
+ * extrapolated. Device clock and world clock need not agree. Returns whether it is new. */
+static bool start_view(rlf_world *world, const rlf_grid *grid, double dt)
 {
-    if (grid == NULL) {
-        world->has_grid = false;
-        return true;
-    }
-    bool is_new = !world->has_grid || grid->time_ns != world->grid_time_ns;
+    phys_view *view = &world->views[grid->camera];
+    bool is_new = !view->has_grid || grid->time_ns != view->time_ns;
     if (is_new) {
-        world->grid_gap = world->has_grid ? rlf_max(world->grid_tau - EXTRAPOLATION_MAX, 0.0) : 0.0;
-        world->grid_tau = -dt;
+        view->gap = view->has_grid ? rlf_max(view->tau - EXTRAPOLATION_MAX, 0.0) : 0.0;
+        view->tau = -dt;
     }
-    bool has_changed = is_new && !is_same_background(world, grid);
+    bool has_changed = is_new && !is_same_background(view, grid);
     world->rest_version += has_changed;
-    grid_tiles_start(&world->foreground_tiles, grid, &grid->foreground, is_new);
-    grid_tiles_start(&world->background_tiles, grid, &grid->background, has_changed);
-    if (is_new && phys_world_has_room(world, grid)) {
-        world->rest_version += room_planes_glide(&world->room, dt);
-        find_room(world, grid);
-    }
-    world->has_grid = true;
-    world->grid_time_ns = grid->time_ns;
+    grid_tiles_start(&view->foreground, grid, &grid->foreground, is_new);
+    grid_tiles_start(&view->background, grid, &grid->background, has_changed);
+    view->has_grid = true;
+    view->time_ns = grid->time_ns;
     return is_new;
 }
 
-static grid_query query_now(rlf_world *world, const rlf_grid *grid, double h)
+/* Returns whether a camera shows something new, or none shows anything. */
+static bool start_surface(rlf_world *world, const rlf_grid *grid, double dt)
 {
+    bool is_seen[RLF_WORLD_CAMERAS_MAX] = {false};
+    bool is_any = grid == NULL;
+    for (const rlf_grid *one = grid; one != NULL; one = one->next) {
+        bool is_new = start_view(world, one, dt);
+        if (is_new && one == grid && phys_world_has_room(world, grid)) {
+            world->rest_version += room_planes_glide(&world->room, dt);
+            find_room(world, grid);
+        }
+        is_any = is_any || is_new;
+        is_seen[one->camera] = true;
+    }
+    for (int32_t k = 0; k < RLF_WORLD_CAMERAS_MAX; k++) {
+        is_any = is_any || (world->views[k].has_grid && !is_seen[k]);
+        world->views[k].has_grid = is_seen[k];
+    }
+    return is_any;
+}
+
+static grid_query query_of(rlf_world *world, const rlf_grid *grid, double h)
+{
+    phys_view *view = &world->views[grid->camera];
     grid_query query = {.grid = grid, .time = world->time, .step = h};
     query.T_grid_world = rlf_pose_invert(&grid->T_world_grid);
-    query.tau = rlf_clamp(world->grid_tau, -EXTRAPOLATION_MAX, EXTRAPOLATION_MAX);
-    query.lag = rlf_max(query.tau - world->grid_tau, 0.0) + world->grid_gap;
-    query.is_moving = query.tau == world->grid_tau;
+    query.tau = rlf_clamp(view->tau, -EXTRAPOLATION_MAX, EXTRAPOLATION_MAX);
+    query.lag = rlf_max(query.tau - view->tau, 0.0) + view->gap;
+    query.is_moving = query.tau == view->tau;
     query.rest_version = world->rest_version;
-    query.foreground = &world->foreground_tiles;
-    query.background = &world->background_tiles;
-    query.room = phys_world_has_room(world, grid) ? &world->room : NULL;
-    query.map = world->map;
+    query.foreground = &view->foreground;
+    query.background = &view->background;
     query.up = up_in_grid(world, grid);
     return query;
+}
+
+/* What all cameras of the list see; the first of them alone answers for what none sees. */
+typedef struct grid_queries {
+    grid_query of[RLF_WORLD_CAMERAS_MAX];
+} grid_queries;
+
+static const grid_query *query_now(rlf_world *world, const rlf_grid *grid, double h,
+                                   grid_queries *out)
+{
+    int32_t count = 0;
+    for (const rlf_grid *one = grid; one != NULL; one = one->next, count++) {
+        out->of[count] = query_of(world, one, h);
+        out->of[count].first = &out->of[0];
+        if (count > 0) {
+            out->of[count - 1].next = &out->of[count];
+        }
+    }
+    if (count == 0) {
+        return NULL;
+    }
+    out->of[0].room = phys_world_has_room(world, grid) ? &world->room : NULL;
+    out->of[0].map = world->map;
+    return &out->of[0];
 }
 
 typedef struct surface_job {
@@ -224,7 +261,9 @@ static void substep(rlf_world *world, const grid_query *query, double h)
     move_driven(world, h);
     phys_clock(&clock, &world->times.solve_ms);
     world->time += h;
-    world->grid_tau += h;
+    for (int32_t k = 0; k < RLF_WORLD_CAMERAS_MAX; k++) {
+        world->views[k].tau += h;
+    }
 }
 
 /* Substeps between two searches for pairs. */
@@ -233,12 +272,8 @@ static void leap(rlf_world *world, const rlf_grid *grid, int32_t count, double h
     phys_world_release(world);
     for (int32_t i = 0; i < count; i++) {
         int64_t clock = rlf_clock_ns();
-        grid_query now;
-        const grid_query *query = NULL;
-        if (grid != NULL) {
-            now = query_now(world, grid, h);
-            query = &now;
-        }
+        grid_queries now;
+        const grid_query *query = query_now(world, grid, h, &now);
         if (i == 0) {
             phys_find_pairs(world, h);
             phys_wake_by_touch(world, (count + 1) * h);
@@ -283,20 +318,16 @@ static void greet_surface(rlf_world *world, const rlf_grid *grid, double dt)
         phys_body *body = &world->bodies[i];
         phys_body_ask_surface(body);
     }
-    if (grid == NULL) {
-        phys_wake_by_surface(world, NULL, dt);
-        return;
-    }
-    grid_query query = query_now(world, grid, dt);
-    phys_wake_by_surface(world, &query, dt);
+    grid_queries now;
+    phys_wake_by_surface(world, query_now(world, grid, dt, &now), dt);
 }
 
 /* Hands take hold of bodies, carry them and let go. */
 static void grab(rlf_world *world, const rlf_grid *grid, double dt)
 {
     if (world->def.enable_grab) {
-        grid_query query = query_now(world, grid, dt);
-        phys_grab_update(world, &query, dt);
+        grid_queries now;
+        phys_grab_update(world, query_now(world, grid, dt, &now), dt);
     }
 }
 

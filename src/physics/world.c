@@ -19,6 +19,7 @@ rlf_world_def rlf_world_def_default(void)
         .step_hz = 240,
         .max_speed = 50,
         .bounds = {{-20, -20, -20}, {20, 20, 20}},
+        .camera_capacity = 1,
     };
     return def;
 }
@@ -54,6 +55,10 @@ static rlf_result check_world_def(const rlf_world_def *def)
     if (def->border != RLF_BORDER_OPEN && def->border != RLF_BORDER_EXTEND) {
         return rlf_fail(RLF_ERROR_INVALID, "world def: border: %d is neither open nor extend",
                         (int)def->border);
+    }
+    if (def->camera_capacity < 1 || def->camera_capacity > RLF_WORLD_CAMERAS_MAX) {
+        return rlf_fail(RLF_ERROR_INVALID, "world def: camera_capacity: %d: give 1 to %d",
+                        (int)def->camera_capacity, RLF_WORLD_CAMERAS_MAX);
     }
     rlf_vec3 size = rlf_sub(def->bounds.max, def->bounds.min);
     if (!rlf_vec3_is_finite(size) || !(size.x > 0 && size.y > 0 && size.z > 0)) {
@@ -172,7 +177,7 @@ bool rlf_world_set_body(rlf_world *world, rlf_body_id id, const rlf_pose *T_worl
         body->w = angular_velocity;
     }
     body->surface_count = 0;
-    body->side[0] = body->side[1] = 0;
+    memset(body->side, 0, sizeof(body->side));
     body->turned += RLF_PI; /* whatever the turn was: its contacts are void */
     phys_body_orient(body);
     wake_near(world, body);
@@ -243,16 +248,34 @@ void rlf_world_reset(rlf_world *world)
     world->touch_count = world->event_count = 0;
     world->time = 0.0;
     world->frame = 0;
-    world->has_grid = false;
+    for (int32_t k = 0; k < RLF_WORLD_CAMERAS_MAX; k++) {
+        world->views[k].has_grid = false;
+    }
     memset(&world->room, 0, sizeof(world->room));
     memset(world->grab_hands, 0, RLF_GRID_HANDS_MAX * sizeof(*world->grab_hands));
     phys_world_publish(world);
 }
 
+/* Each camera once, and the world has room for it. */
+static bool are_grids_whole(const rlf_world *world, const rlf_grid *grid)
+{
+    uint32_t seen = 0;
+    bool is_first = true;
+    for (const rlf_grid *one = grid; one != NULL; one = one->next, is_first = false) {
+        if (one->camera < 0 || one->camera >= world->def.camera_capacity ||
+            (seen >> one->camera & 1u) != 0 || (is_first && one->camera != 0) ||
+            !grid_is_whole(one)) {
+            return false;
+        }
+        seen |= 1u << one->camera;
+    }
+    return true;
+}
+
 void rlf_world_advance(rlf_world *world, const rlf_grid *grid, double dt)
 {
     if (!RLF_ASSERT(world != NULL) || !RLF_ASSERT(dt > 0.0 && dt <= 1.0) ||
-        !RLF_ASSERT(grid == NULL || grid_is_whole(grid))) {
+        !RLF_ASSERT(are_grids_whole(world, grid))) {
         return;
     }
     world->log_begin += world->log_count;

@@ -12,7 +12,7 @@ typedef struct memory_plan {
 /* Bodies that are held at once. */
 #define GRABS_MAX 16
 
-#define PLANS_MAX 64
+#define PLANS_MAX 96
 #define PLAN(field, number)                                                                        \
     {                                                                                              \
         &w->field, (number), sizeof(*w->field)                                                     \
@@ -71,14 +71,19 @@ static int32_t plan_memory(rlf_world *w, memory_plan plans[PLANS_MAX])
         PLAN(unsorted_touches, contacts + bodies),
         PLAN(touch_begin, bodies + 2),
         PLAN(events, 2 * (contacts + bodies)),
-        PLAN(foreground_tiles.tiles, TILES_MAX),
-        PLAN(background_tiles.tiles, TILES_MAX),
-        PLAN(foreground_tiles.marks, TILES_MAX),
-        PLAN(background_tiles.marks, TILES_MAX),
     };
-    _Static_assert(sizeof(all) / sizeof(all[0]) <= PLANS_MAX, "more plans than PLANS_MAX");
+    _Static_assert(sizeof(all) / sizeof(all[0]) + 4 * RLF_WORLD_CAMERAS_MAX <= PLANS_MAX,
+                   "more plans than PLANS_MAX");
     memcpy(plans, all, sizeof(all));
-    return (int32_t)(sizeof(all) / sizeof(all[0]));
+    int32_t count = (int32_t)(sizeof(all) / sizeof(all[0]));
+    for (int32_t k = 0; k < w->def.camera_capacity; k++) {
+        const memory_plan tiles[4] = {
+            PLAN(views[k].foreground.tiles, TILES_MAX), PLAN(views[k].background.tiles, TILES_MAX),
+            PLAN(views[k].foreground.marks, TILES_MAX), PLAN(views[k].background.marks, TILES_MAX)};
+        memcpy(plans + count, tiles, sizeof(tiles));
+        count += 4;
+    }
+    return count;
 }
 
 /* Crowds have about three touching pairs per body; six leave room for those that are near. */

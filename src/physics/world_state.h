@@ -77,6 +77,18 @@ typedef struct phys_touch {
 
 typedef struct phys_grab phys_grab;
 
+/* What one camera showed last. */
+typedef struct phys_view {
+    bool has_grid; /* whether the last advance saw one, and where its time stands */
+    int64_t time_ns;
+    double gap; /* s of the last one's way that was not extrapolated before this one came */
+    double tau; /* s from when the grid was seen to now, negative before */
+    grid_tiles foreground, background;
+    const float *background_depth; /* of the last grid, and its version */
+    int64_t background_version;
+    rlf_pose pose;
+} phys_view;
+
 struct rlf_world {
     rlf_world_def def;
     phys_body *bodies;
@@ -151,14 +163,7 @@ struct rlf_world {
     uint64_t frame;
     int32_t substep; /* of this advance */
 
-    bool has_grid; /* whether the last advance saw one, and where its time stands */
-    int64_t grid_time_ns;
-    double grid_gap; /* s of the last one's way that was not extrapolated before this one came */
-    double grid_tau; /* s from when the grid was seen to now, negative before */
-    grid_tiles foreground_tiles, background_tiles;
-    const float *background_depth; /* of the last grid, and its version */
-    int64_t background_version;
-    rlf_pose grid_pose;
+    phys_view views[RLF_WORLD_CAMERAS_MAX];
     int64_t rest_version; /* while it is the same, what stays does not change under a sleeper */
     const struct rlf_map *map; /* the room as far as it is known; NULL = it is not */
     room_planes room;

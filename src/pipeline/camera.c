@@ -11,7 +11,7 @@
 
 void camera_stop(rlf_pipeline *p)
 {
-    if (p->world != NULL) {
+    if (p->world != NULL && p->joined == NULL) {
         rlf_world_set_room(p->world, NULL);
     }
     moving_stop(&p->camera.moving);

@@ -161,6 +161,47 @@ static void make_room(rlf_world_def *def, const rlf_scene *scene)
     }
 }
 
+static rlf_result create_world(rlf_pipeline *p)
+{
+    p->def.world.gravity = p->scene.gravity;
+    p->def.world.border = p->scene.border;
+    make_room(&p->def.world, &p->scene);
+    return rlf_world_create(&p->def.world, &p->world);
+}
+
+/* Shares the world of another camera's pipeline. */
+static rlf_result join_world(rlf_pipeline *p, rlf_pipeline *to)
+{
+    int32_t index = 1;
+    if (to->joined != NULL || p->def.scene != NULL || p->def.map != NULL ||
+        p->def.camera != RLF_CAMERA_FIXED) {
+        return rlf_fail(RLF_ERROR_INVALID, "pipeline def: joins: scene, map and a camera that "
+                                           "moves are those of the first camera's pipeline");
+    }
+    while (index < to->def.world.camera_capacity && to->others[index] != NULL) {
+        index++;
+    }
+    if (index >= to->def.world.camera_capacity) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "pipeline def: joins: its world has room for %d cameras: raise "
+                        "world.camera_capacity",
+                        (int)to->def.world.camera_capacity);
+    }
+    p->world = to->world;
+    p->joined = to;
+    p->index = index;
+    to->others[index] = p;
+    return RLF_OK;
+}
+
+static void leave_world(rlf_pipeline *p)
+{
+    if (p->joined != NULL) {
+        p->joined->others[p->index] = NULL;
+        p->world = NULL;
+    }
+}
+
 static rlf_result create_stages(rlf_pipeline *p)
 {
     rlf_source_expect_range(p->def.source, p->def.reconstruct.depth_min_m,
@@ -169,10 +210,7 @@ static rlf_result create_stages(rlf_pipeline *p)
     if (result != RLF_OK) {
         return result;
     }
-    p->def.world.gravity = p->scene.gravity;
-    p->def.world.border = p->scene.border;
-    make_room(&p->def.world, &p->scene);
-    result = rlf_world_create(&p->def.world, &p->world);
+    result = p->def.joins != NULL ? join_world(p, p->def.joins) : create_world(p);
     if (result != RLF_OK) {
         return result;
     }
@@ -253,7 +291,7 @@ rlf_result rlf_pipeline_create(const rlf_pipeline_def *def, rlf_pipeline **out)
     if (result == RLF_OK) {
         result = create_stages(p);
     }
-    if (result == RLF_OK) {
+    if (result == RLF_OK && p->joined == NULL) {
         result = pipeline_add_bodies(p);
     }
     if (result == RLF_OK) {
@@ -280,6 +318,7 @@ void rlf_pipeline_destroy(rlf_pipeline **pipeline)
     rlf_pipeline *p = *pipeline;
     *pipeline = NULL;
     rlf_compositor_destroy(&p->compositor);
+    leave_world(p);
     rlf_world_destroy(&p->world);
     known_models_destroy(&p->known);
     rlf_reconstruct_destroy(&p->reconstruct);

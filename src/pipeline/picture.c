@@ -26,6 +26,53 @@ rlf_compositor_def rlf_pipeline_get_compositor_def(const rlf_pipeline *p)
     return RLF_ASSERT(p != NULL) ? p->compositor_def : (rlf_compositor_def){.cookie = 0};
 }
 
+/* On failure the old renderer goes on. */
+static rlf_result draw_by(rlf_pipeline *p, const rlf_compositor_def *def)
+{
+    rlf_compositor *fresh = NULL;
+    const rlf_result result = rlf_compositor_create_soft(def, &fresh);
+    if (result != RLF_OK) {
+        return result;
+    }
+    p->compositor_def = *def;
+    return rlf_pipeline_set_compositor(p, fresh);
+}
+
+/* What the camera's picture tells, of light and silhouettes, is not where the projector looks. */
+static rlf_compositor_def seen_from(const rlf_compositor_def *from, const rlf_camera *projector,
+                                    const rlf_pose *T_projector_depth)
+{
+    rlf_compositor_def def = *from;
+    def.rig.color = *projector;
+    def.rig.has_color = true;
+    def.rig.T_color_depth = *T_projector_depth;
+    def.width = def.height = 0;
+    def.occlusion = def.occlusion == RLF_OCCLUSION_OFF ? RLF_OCCLUSION_OFF : RLF_OCCLUSION_DEPTH;
+    def.estimates_light = def.estimates_light_direction = def.enable_real_ambient = false;
+    return def;
+}
+
+rlf_result rlf_pipeline_set_projector(rlf_pipeline *p, const rlf_camera *projector,
+                                      const rlf_pose *T_projector_depth)
+{
+    if (!RLF_ASSERT(p != NULL && projector != NULL && T_projector_depth != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    const rlf_compositor_def def = seen_from(&p->compositor_def, projector, T_projector_depth);
+    return draw_by(p, &def);
+}
+
+rlf_result rlf_pipeline_set_picture_size(rlf_pipeline *p, int32_t width, int32_t height)
+{
+    if (!RLF_ASSERT(p != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    rlf_compositor_def def = p->compositor_def;
+    def.width = width;
+    def.height = height;
+    return draw_by(p, &def);
+}
+
 void rlf_pipeline_set_view(rlf_pipeline *p, rlf_view view)
 {
     if (RLF_ASSERT(p != NULL && view >= 0 && view < RLF_VIEW_COUNT)) {

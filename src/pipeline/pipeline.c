@@ -151,30 +151,64 @@ static rlf_result place_known(rlf_pipeline *p, rlf_grid *grid)
     return known_models_solve(&p->known, &view, p->world);
 }
 
+/* In the order of their cameras. */
+static void list_grids(rlf_pipeline *p)
+{
+    rlf_grid *last = &p->grid;
+    last->next = NULL;
+    for (int32_t k = 1; k < RLF_WORLD_CAMERAS_MAX; k++) {
+        rlf_pipeline *other = p->others[k];
+        if (other != NULL && other->has_grid) {
+            other->grid.next = NULL;
+            last->next = &other->grid;
+            last = &other->grid;
+        }
+    }
+}
+
+static void note_time(rlf_pipeline *p)
+{
+    rlf_pipeline_output *out = &p->last;
+    if (p->frame_index == 0) {
+        p->first_time_ns = out->frame.time_ns;
+    }
+    p->last_time_ns = out->frame.time_ns;
+    out->time_s = (double)(out->frame.time_ns - p->first_time_ns) * 1e-9;
+    out->snapshot = rlf_world_get_snapshot(p->world);
+}
+
+/* The surface of one that joined waits for the other's step. */
+static void lend_surface(rlf_pipeline *p)
+{
+    make_grid(p, &p->grid);
+    p->grid.camera = p->index;
+    p->has_grid = !p->last.surface->is_blind;
+    note_time(p);
+}
+
 static rlf_result advance_world(rlf_pipeline *p)
 {
     rlf_pipeline_output *out = &p->last;
-    rlf_grid grid;
+    if (p->joined != NULL) {
+        lend_surface(p);
+        return RLF_OK;
+    }
     seek_gravity(p);
     tell_blind(p);
-    make_grid(p, &grid);
-    hand_stage_show(&p->hands, &grid);
+    make_grid(p, &p->grid);
+    hand_stage_show(&p->hands, &p->grid);
+    list_grids(p);
     bool is_first = p->frame_index == 0;
-    rlf_result result = place_known(p, &grid);
+    rlf_result result = place_known(p, &p->grid);
     if (result != RLF_OK) {
         return result;
     }
     const double gap = is_first ? 0.0 : (double)(out->frame.time_ns - p->last_time_ns) * 1e-9;
     const double dt = time_to_advance(p, gap);
     if (dt > 0.0) {
-        rlf_world_advance(p->world, &grid, dt);
+        rlf_world_advance(p->world, &p->grid, dt);
     }
-    if (is_first) {
-        p->first_time_ns = out->frame.time_ns;
-    }
-    p->last_time_ns = out->frame.time_ns;
-    out->time_s = (double)(out->frame.time_ns - p->first_time_ns) * 1e-9;
-    out->snapshot = rlf_world_get_snapshot(p->world);
+    note_time(p);
     return RLF_OK;
 }
 
@@ -214,6 +248,37 @@ static rlf_result make_surface(rlf_pipeline *p)
     return result;
 }
 
+/* A frame of a camera that joined, if it has one. One that ended, or fails, shows nothing more. */
+static void see_other(rlf_pipeline *p)
+{
+    rlf_frame frame;
+    rlf_result result = rlf_source_next(p->def.source, &frame);
+    if (result == RLF_OK) {
+        p->last.frame = frame;
+        result = make_surface(p);
+    }
+    if (result == RLF_OK) {
+        lend_surface(p);
+        p->last.frame_index = p->frame_index++;
+    } else if (result != RLF_NO_FRAME) {
+        if (p->has_grid) {
+            rlf_log(RLF_LOG_WARNING, "camera %d, %s: %s: the others go on", (int)p->index + 1,
+                    rlf_source_get_info(p->def.source)->name,
+                    result == RLF_END ? "it has no more frames" : rlf_error_text());
+        }
+        p->has_grid = false;
+    }
+}
+
+static void see_others(rlf_pipeline *p)
+{
+    for (int32_t k = 1; k < RLF_WORLD_CAMERAS_MAX; k++) {
+        if (p->others[k] != NULL && p->others[k]->pushed.source == NULL) {
+            see_other(p->others[k]);
+        }
+    }
+}
+
 rlf_result rlf_pipeline_step(rlf_pipeline *p, rlf_pipeline_output *out)
 {
     if (!RLF_ASSERT(p != NULL && out != NULL)) {
@@ -232,6 +297,7 @@ rlf_result rlf_pipeline_step(rlf_pipeline *p, rlf_pipeline_output *out)
     }
     last->frame = frame;
     last->times.capture_ms = elapsed_ms(&clock);
+    see_others(p);
     result = make_surface(p);
     if (result != RLF_OK) {
         return result;
@@ -296,13 +362,16 @@ rlf_result rlf_pipeline_restart(rlf_pipeline *p)
         return result;
     }
     rlf_reconstruct_reset(p->reconstruct);
-    rlf_world_reset(p->world);
+    p->has_grid = false;
+    if (p->joined == NULL) {
+        rlf_world_reset(p->world);
+    }
     hand_stage_restart(&p->hands);
     p->room.path_count = 0;
     p->has_room = p->is_blind = p->has_told_blind = false;
     p->frame_index = 0;
     result = camera_start(p);
-    return result == RLF_OK ? pipeline_add_bodies(p) : result;
+    return result == RLF_OK && p->joined == NULL ? pipeline_add_bodies(p) : result;
 }
 
 rlf_result rlf_pipeline_set_known(rlf_pipeline *p, const rlf_known_def *def, rlf_known_fit *out_fit)

@@ -59,7 +59,12 @@ struct rlf_pipeline {
     rlf_scene scene;              /* copy; hulls stay the caller's */
     rlf_reconstruct *reconstruct; /* of a camera that stands */
     camera camera;
-    rlf_world *world;
+    rlf_world *world; /* of `joined` when this one joined another */
+    struct rlf_pipeline *joined, *others[RLF_WORLD_CAMERAS_MAX]; /* that joined this one, by camera;
+                                                                    [0] is not used */
+    rlf_grid grid; /* of its newest surface; of one that joined while has_grid */
+    bool has_grid;
+    int32_t index; /* of its camera in the world */
     known_models known;
     rlf_compositor *compositor;
     rlf_compositor_def compositor_def;

@@ -13,7 +13,7 @@ struct rlf_compositor {
 
 static const char *const view_names[RLF_VIEW_COUNT] = {
     "camera",    "depth",  "normals", "mesh",     "regions", "foreground", "background", "velocity",
-    "thickness", "reason", "points",  "contacts", "known",   "hands",      "map",
+    "thickness", "reason", "points",  "contacts", "known",   "hands",      "map",        "bodies",
 };
 
 const char *rlf_view_name(rlf_view view)

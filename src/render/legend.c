@@ -128,6 +128,7 @@ static void add_rows(rlf_legend *legend, rlf_view view, const rlf_rig *rig)
         add(legend, soft_rgb(150, 150, 150), "grey: seen without colour");
         add(legend, soft_color_dark(), "dark: not seen yet");
         break;
+    case RLF_VIEW_BODIES: add(legend, soft_rgb(0, 0, 0), "no body; clear in a PNG"); break;
     case RLF_VIEW_CAMERA:
     case RLF_VIEW_COUNT: break;
     }
@@ -151,6 +152,7 @@ rlf_legend rlf_view_legend(rlf_view view, const rlf_rig *rig)
         "known: models of real things",
         "hands: palms, finger tips, gestures",
         "map: the room so far, from anywhere",
+        "bodies alone",
     };
     rlf_legend legend;
     memset(&legend, 0, sizeof(legend));

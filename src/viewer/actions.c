@@ -25,6 +25,10 @@ void viewer_choose_renderer(viewer *v)
 
 void viewer_set_view(viewer *v, rlf_view view)
 {
+    if (v->options->keeps_view && view != v->view) {
+        viewer_show_message(v, "the view stays: this window is a projector's");
+        return;
+    }
     const rlf_view views[2] = {v->is_beside ? RLF_VIEW_CAMERA : view, view};
     v->view = view;
     if (rlf_pipeline_set_views(v->stage.pipeline, views, v->is_beside ? 2 : 1) != RLF_OK) {
@@ -35,6 +39,10 @@ void viewer_set_view(viewer *v, rlf_view view)
 
 void viewer_restart(viewer *v)
 {
+    if (v->kiosk.is_lost) {
+        v->kiosk.again_ns = 0;
+        return;
+    }
     if (rlf_pipeline_restart(v->stage.pipeline) != RLF_OK) {
         viewer_show_error(v, rlf_error_text());
         return;

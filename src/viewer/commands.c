@@ -51,6 +51,7 @@ static void nudge(viewer *v, const viewer_commands *commands)
 static void toggle_place(viewer *v)
 {
     char text[VIEWER_PLACE_TEXT];
+    viewer_draw_whole(v); /* points are picked in the camera's own pixels */
     if (viewer_place_toggle(&v->place, v->stage.pipeline, text)) {
         viewer_set_view(v, v->place.is_on ? RLF_VIEW_KNOWN : RLF_VIEW_CAMERA);
     }
@@ -117,6 +118,8 @@ static void leave(viewer *v)
 {
     if (v->place.is_on) {
         toggle_place(v);
+    } else if (v->corners.is_on) {
+        viewer_toggle_corners(v);
     } else {
         viewer_window_leave(&v->window);
     }
@@ -130,10 +133,19 @@ static void run_switches(viewer *v, const viewer_commands *commands)
     v->is_mirrored = v->is_mirrored != commands->toggle_mirror;
     v->shows_panel = v->shows_panel != commands->toggle_panel;
     v->shows_help = v->shows_help != commands->toggle_help;
+    if (commands->toggle_fill) {
+        viewer_toggle_fill(v);
+    }
     if (commands->toggle_panel && v->panel == NULL) {
         viewer_show_error(v, viewer_panel_is_built()
                                  ? "no panel here: it needs OpenGL 3.3, and this display has ES"
                                  : "this build has no panel: " VIEWER_GET_PANEL);
+    }
+    if (commands->open_files && v->window.panel_width > 0) {
+        viewer_panel_open_files(v->panel);
+    } else if (commands->open_files) {
+        viewer_show_message(v,
+                            "the list of files is the panel's: M brings it, or drop a file here");
     }
     if (commands->next_end && v->stage.playback != NULL) {
         viewer_set_end(v,
@@ -181,7 +193,7 @@ static void run_playing(viewer *v, const viewer_commands *commands)
     if (commands->restart) {
         viewer_restart(v);
     }
-    if (!v->place.is_on && commands->nudge_x != 0) {
+    if (!v->place.is_on && !v->corners.is_on && commands->nudge_x != 0) {
         seek_by(v, commands->nudge_x);
     }
 }
@@ -193,7 +205,11 @@ void viewer_run_commands(viewer *v)
     run_switches(v, &commands);
     run_playing(v, &commands);
     run_views(v, &commands);
-    run_place_commands(v, &commands);
+    if (v->corners.is_on || commands.toggle_corners) {
+        viewer_run_corners(v, &commands);
+    } else {
+        run_place_commands(v, &commands);
+    }
     if (commands.press) {
         viewer_press(v, &commands);
     }
@@ -204,7 +220,10 @@ void viewer_run_commands(viewer *v)
     if (commands.delete_body) {
         viewer_delete(v);
     }
-    if (commands.save_picture) {
+    if (commands.bring_back) {
+        viewer_bring_back(v);
+    }
+    if (commands.save_picture || (commands.save_scene && !v->place.is_on)) {
         viewer_save_picture(v);
     }
     if (commands.toggle_record) {

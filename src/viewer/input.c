@@ -71,6 +71,10 @@ static void take_key(viewer_window *window, int key)
     case GLFW_KEY_0: commands->view = 9; break;
     case GLFW_KEY_O: commands->view = 10; break;
     case GLFW_KEY_C: commands->view = 11; break;
+    case GLFW_KEY_A: commands->view = 15; break;
+    case GLFW_KEY_U: commands->bring_back = true; break;
+    case GLFW_KEY_W: commands->toggle_fill = true; break;
+    case GLFW_KEY_D: commands->toggle_corners = true; break;
     case GLFW_KEY_B: commands->toggle_beside = true; break;
     case GLFW_KEY_K: commands->toggle_place = true; break;
     default:
@@ -106,6 +110,14 @@ static void on_key(GLFWwindow *handle, int key, int scancode, int action, int mo
     window->commands.refresh = true;
     if (action == GLFW_PRESS && window->tap_count < VIEWER_TAPS_MAX) {
         window->taps[window->tap_count++] = key;
+    }
+    if (key == GLFW_KEY_O && (modifiers & GLFW_MOD_CONTROL) != 0 && action == GLFW_PRESS &&
+        !window->is_key_taken) {
+        window->commands.open_files = true;
+    }
+    if (key == GLFW_KEY_Z && (modifiers & GLFW_MOD_CONTROL) != 0 && action == GLFW_PRESS &&
+        !window->is_key_taken) {
+        window->commands.bring_back = true;
     }
     if (!is_other_command && !window->is_key_taken &&
         (action == GLFW_PRESS || (action == GLFW_REPEAT && repeats(key)))) {

@@ -14,15 +14,21 @@ static const char *const help_lines[] = {
     "V next view   B beside the camera   Y mirror",
     "right drag turns points and map, wheel zooms",
     "click or T: throw, drag for speed   G another shape",
-    "drag a body: pick it up   Delete: the one under the mouse",
-    "drop a recording, a scene or a model on the window",
-    "P picture   E record   F full screen   Esc leaves it   Q quit",
+    "drag a body: pick it up   Delete: the one under the mouse   U brings it back",
+    "Ctrl and O, or drop: a recording, a scene or a model",
+    "S or P picture   E record   F full screen   Esc leaves it   Q quit",
+    "A bodies alone   W fill the window   D drag the picture's corners",
     "H keys and figures   I all text   M panel   K place models of real things",
 };
 
 static const char *const place_lines[] = {
     "X cannot see that point   Backspace begin again   Enter 3 are enough",
     "arrows Page [ ] move it, shift finely   Tab next one   S save   K done",
+};
+
+static const char *const corner_lines[] = {
+    "drag a corner; arrows move it, shift finely, Tab takes the next one",
+    "Backspace makes all straight   D or Esc done",
 };
 
 /* Where nobody has thrown anything yet. */
@@ -96,6 +102,10 @@ static void add_help(viewer *v)
         add_texts(v, place_lines, sizeof place_lines / sizeof place_lines[0]);
         return;
     }
+    if (v->corners.is_on) {
+        add_texts(v, corner_lines, sizeof corner_lines / sizeof corner_lines[0]);
+        return;
+    }
     const bool has_hint = v->thrown_count == 0 && rlf_clock_ns() < v->hint_end_ns;
     if (v->shows_help) {
         add_texts(v, help_lines, sizeof help_lines / sizeof help_lines[0]);
@@ -114,7 +124,7 @@ void viewer_make_lines(viewer *v)
     if (is_shown && v->shows_help) {
         add_state(v);
     }
-    if (is_shown || v->place.is_on) {
+    if (is_shown || v->place.is_on || v->corners.is_on) {
         add_help(v);
     }
     add_recording(v);

@@ -13,6 +13,10 @@ static void tell(viewer *v, const char *text, bool is_error)
     if (text[0] == '\0') {
         return;
     }
+    if (is_error && v->options->is_kiosk) { /* nobody reads it on the wall */
+        rlf_log(RLF_LOG_WARNING, "%s", text);
+        return;
+    }
     if (v->message_count == 0 || strcmp(v->messages[0].text, text) != 0) {
         memmove(v->messages + 1, v->messages, sizeof v->messages - sizeof v->messages[0]);
         v->message_count += v->message_count < VIEWER_MESSAGES_MAX ? 1 : 0;

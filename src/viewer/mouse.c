@@ -10,7 +10,8 @@ static bool pixel_at(const viewer *v, double x, double y, double *out_u, double 
     int32_t height;
     viewer_get_area(v, &width, &height);
     const rlf_image_rgba8 *image = &v->frame.render.image;
-    const viewer_fit fit = {width, height, image->width, image->height};
+    const viewer_fit fit = {width,         height,   image->width,
+                            image->height, v->fills, v->corners.is_askew ? &v->corners.map : NULL};
     if (!v->has_frame || width < 1 || height < 1 || !viewer_fit_pick(&fit, x, y, out_u, out_v)) {
         return false;
     }
@@ -45,8 +46,11 @@ void viewer_press(viewer *v, viewer_commands *commands)
     rlf_ray_hit hit;
     const rlf_world *world = rlf_pipeline_get_world(v->stage.pipeline);
     const bool is_up = !v->window.is_dragging; /* a click: it went up already */
-    bool is_taken = viewer_seek_pick(v, commands->press_x, commands->press_y, false, &share);
+    bool is_taken = viewer_press_corner(v, commands);
     if (is_taken) {
+        v->corners.is_held = !is_up;
+    } else if ((is_taken =
+                    viewer_seek_pick(v, commands->press_x, commands->press_y, false, &share))) {
         viewer_seek_to(v, share);
         v->is_seeking = !is_up;
     } else if (!v->place.is_on && ray_at(v, commands->press_x, commands->press_y, &ray) &&
@@ -67,10 +71,10 @@ void viewer_follow_mouse(viewer *v)
     double x, y, share;
     viewer_ray ray;
     if (!v->window.is_held) {
-        v->grab.is_on = false;
-        v->is_seeking = false;
+        v->grab.is_on = v->is_seeking = v->corners.is_held = false;
         return;
     }
+    viewer_drag_corner(v);
     viewer_window_get_cursor(&v->window, &x, &y);
     if (v->is_seeking && viewer_seek_pick(v, x, y, true, &share)) {
         viewer_seek_to(v, share);
@@ -117,12 +121,11 @@ void viewer_delete(viewer *v)
     double x, y;
     viewer_ray ray;
     rlf_ray_hit hit;
-    rlf_world *world = rlf_pipeline_get_world(v->stage.pipeline);
+    const rlf_world *world = rlf_pipeline_get_world(v->stage.pipeline);
     viewer_window_get_cursor(&v->window, &x, &y);
     if (!ray_at(v, x, y, &ray) || !viewer_grab_find(world, &ray, &hit)) {
         viewer_show_message(v, "no body under the mouse to delete");
         return;
     }
-    rlf_world_remove_body(world, hit.body);
-    v->is_redraw_due = true;
+    viewer_remove_body(v, hit.body);
 }

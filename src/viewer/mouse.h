@@ -13,10 +13,12 @@
 #define VIEWER_THROW_SPEED_MIN 1.0 /* m/s */
 #define VIEWER_THROW_SPEED_MAX 12.0
 
-/* A window and the picture shown in it with bars; sizes in pixels, all > 0. */
+/* A window and the picture shown in it; sizes in pixels, all > 0. */
 typedef struct viewer_fit {
     double window_width, window_height;
     int32_t picture_width, picture_height;
+    bool fills;          /* cut; else with bars */
+    const rlf_mat3 *map; /* as rlf_gl_presenter_set_place takes it; NULL = none */
 } viewer_fit;
 
 /* Window position to picture pixel; false on the bars or outside. */

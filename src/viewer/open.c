@@ -14,12 +14,10 @@ static bool ends_with(const char *text, const char *end)
 /* Looks at what was opened from its first frame on. */
 static void begin_stage(viewer *v, const rlf_window_stage *stage)
 {
-    const rlf_playback_end end =
-        v->stage.playback != NULL ? rlf_playback_get_end(v->stage.playback) : RLF_PLAYBACK_LOOP;
-    v->stage = *stage;
-    if (stage->playback != NULL) {
-        rlf_playback_set_end(stage->playback, end);
+    if (v->stage.playback != NULL && stage->playback != NULL) {
+        rlf_playback_set_end(stage->playback, rlf_playback_get_end(v->stage.playback));
     }
+    v->stage = *stage;
     memset(&v->frame, 0, sizeof v->frame);
     v->has_frame = false;
     v->is_at_end = false;
@@ -27,6 +25,9 @@ static void begin_stage(viewer *v, const rlf_window_stage *stage)
     v->silent_s = 0;
     v->grab.is_on = false;
     v->place.is_on = false;
+    v->undo.count = 0; /* what they borrow is gone */
+    v->kiosk.is_lost = v->is_half = false;
+    v->slow_frames = 0;
     v->due_ns = rlf_clock_ns();
     v->last_step_ns = 0;
     viewer_choose_renderer(v);
@@ -42,7 +43,9 @@ bool viewer_open_stage(viewer *v, rlf_window_opening what, const char *text)
         return false;
     }
     if (v->options->on_open(v->options->context, what, text, &stage) != RLF_OK) {
-        viewer_show_error(v, rlf_error_text());
+        if (what != RLF_WINDOW_OPEN_AGAIN) { /* which the kiosk tells */
+            viewer_show_error(v, rlf_error_text());
+        }
         return false;
     }
     begin_stage(v, &stage);

@@ -83,10 +83,8 @@ static void draw_messages(viewer_panel *p)
     ImGui::EndChild();
 }
 
-/* A key that went up before the next picture was still pressed: imgui alone would not know. */
-static void press_taps(viewer_panel *p, bool is_before)
+void panel_press_taps(viewer_window *window, bool is_before)
 {
-    viewer_window *window = &p->v->window;
 #if IMGUI_VERSION_NUM < 18700
     ImGuiIO &io = ImGui::GetIO();
     for (int32_t i = 0; i < window->tap_count; i++) {
@@ -99,12 +97,11 @@ static void press_taps(viewer_panel *p, bool is_before)
     window->tap_count = is_before ? window->tap_count : 0;
 }
 
-/* In an open list the arrows choose, Enter and Space take, and Escape closes it. Elsewhere keys are
- * the window's. */
-static void lead_list(const viewer_panel *p)
+/* Elsewhere keys are the window's. */
+void panel_lead_list(bool is_open)
 {
     ImGuiIO &io = ImGui::GetIO();
-    if (!p->v->window.is_list_open) {
+    if (!is_open) {
         io.ConfigFlags &= ~ImGuiConfigFlags_NavEnableKeyboard;
         return;
     }
@@ -169,7 +166,15 @@ static void draw_controls(viewer_panel *p, int32_t own)
     draw_all(p);
     ImGui::EndChild();
     draw_messages(p);
+    if (panel_files_draw(&p->files)) {
+        panel_ask_for(p, p->files.what, p->files.path);
+    }
     ImGui::End();
+}
+
+void viewer_panel_open_files(viewer_panel *p)
+{
+    panel_files_open(&p->files, PANEL_SOURCE, nullptr);
 }
 
 void viewer_panel_draw(viewer_panel *p)
@@ -178,9 +183,9 @@ void viewer_panel_draw(viewer_panel *p)
     const int32_t own = window->panel_width;
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
-    panel_set_style(&p->style, window->handle, p->v->is_light);
-    press_taps(p, true);
-    lead_list(p);
+    panel_set_style(&p->style, window->handle, p->v->is_light, nullptr);
+    panel_press_taps(window, true);
+    panel_lead_list(window->is_list_open);
     ImGui::NewFrame();
     if (own > 0) {
         draw_controls(p, own);
@@ -188,7 +193,7 @@ void viewer_panel_draw(viewer_panel *p)
     panel_write_lines(p);
     ImGui::Render();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-    press_taps(p, false);
+    panel_press_taps(window, false);
     window->is_list_open = own > 0 && ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
     window->is_key_taken = window->is_list_open || (own > 0 && ImGui::IsAnyItemActive());
     fulfil(p);

@@ -29,18 +29,6 @@ static void draw_shape(viewer_panel *p)
     ImGui::EndCombo();
 }
 
-static void delete_all(viewer *v)
-{
-    rlf_world *world = rlf_pipeline_get_world(v->stage.pipeline);
-    for (int32_t left = rlf_world_get_snapshot(world)->body_count; left > 0; left--) {
-        const rlf_snapshot *s = rlf_world_get_snapshot(world);
-        if (s->body_count > 0) {
-            rlf_world_remove_body(world, s->bodies[s->body_count - 1].id);
-        }
-    }
-    v->is_redraw_due = true;
-}
-
 void panel_draw_bodies(viewer_panel *p)
 {
     viewer *v = p->v;
@@ -61,14 +49,23 @@ void panel_draw_bodies(viewer_panel *p)
         thrown->restitution = rlf_clamp(restitution, 0.0, 1.0);
     }
     panel_label("Model", "a file to throw; you can also drop it on the window");
+    ImGui::SetNextItemWidth(-panel_files_button_width());
     if (ImGui::InputTextWithHint("##model", ".glb, .gltf, .obj", p->model, sizeof p->model,
                                  ImGuiInputTextFlags_EnterReturnsTrue) &&
         p->model[0] != '\0') {
         panel_ask_for(p, PANEL_MODEL, p->model);
     }
-    if (ImGui::Button("Delete all bodies")) {
-        delete_all(v);
+    if (panel_files_button()) {
+        panel_files_open(&p->files, PANEL_MODEL, ".glb .gltf .obj");
     }
+    if (ImGui::Button("Delete all bodies")) {
+        viewer_remove_all(v);
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Bring back")) {
+        viewer_bring_back(v);
+    }
+    panel_tip("those that were deleted last (U, or Ctrl and Z)");
     panel_note("Click throws one. Drag a body to carry it; let go to throw it.");
 }
 

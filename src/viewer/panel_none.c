@@ -35,7 +35,24 @@ void viewer_menu_destroy(viewer_menu **menu)
     *menu = NULL;
 }
 
-int32_t viewer_menu_draw(viewer_menu *menu, const rlf_window_choice *choices, int32_t count,
+void viewer_menu_look(viewer_menu *menu, const rlf_window_choice *choices, int32_t count)
+{
+    (void)menu;
+    (void)choices;
+    (void)count;
+}
+
+void viewer_menu_open_files(viewer_menu *menu)
+{
+    (void)menu;
+}
+
+void viewer_panel_open_files(viewer_panel *panel)
+{
+    (void)panel;
+}
+
+int32_t viewer_menu_draw(viewer_menu *menu, rlf_window_choice *choices, int32_t count,
                          int32_t selected)
 {
     (void)menu;

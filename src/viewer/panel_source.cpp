@@ -41,8 +41,12 @@ static void draw_path(viewer_panel *p, const char *label, const char *hint, char
 {
     panel_label(label, "type it and press Enter, or drop it on the window");
     ImGui::PushID(label);
+    ImGui::SetNextItemWidth(-panel_files_button_width());
     const bool is_entered = ImGui::InputTextWithHint("##path", hint, text, RLF_WINDOW_SOURCE_SIZE,
                                                      ImGuiInputTextFlags_EnterReturnsTrue);
+    if (panel_files_button()) {
+        panel_files_open(&p->files, request, request == PANEL_SCENE ? ".json" : nullptr);
+    }
     ImGui::PopID();
     if (is_entered && text[0] != '\0') {
         panel_ask_for(p, request, text);

@@ -123,7 +123,7 @@ void panel_context_close(void)
     ImGui::DestroyContext();
 }
 
-void panel_set_style(panel_style *style, GLFWwindow *window, bool is_light)
+void panel_set_style(panel_style *style, GLFWwindow *window, bool is_light, panel_pictures *pictures)
 {
     const float scale = wanted_scale(window);
     if (scale == style->scale && style->is_light == is_light) {
@@ -131,6 +131,9 @@ void panel_set_style(panel_style *style, GLFWwindow *window, bool is_light)
     }
     if (scale != style->scale) {
         load_typeface(scale);
+        if (pictures != nullptr) {
+            panel_pictures_add(pictures);
+        }
         ImGui_ImplOpenGL3_DestroyFontsTexture();
         ImGui_ImplOpenGL3_CreateFontsTexture();
     }

@@ -49,6 +49,9 @@ void panel_draw_view(viewer_panel *p)
     }
     ImGui::SameLine();
     ImGui::Checkbox("Mirror", &v->is_mirrored);
+    ImGui::SameLine();
+    ImGui::Checkbox("Fill", &v->fills);
+    panel_tip("the whole window, and cut what is beyond it; else black bars");
     ImGui::Checkbox("Text", &v->shows_overlay);
     panel_tip("over the picture");
     ImGui::SameLine();
@@ -57,6 +60,10 @@ void panel_draw_view(viewer_panel *p)
     ImGui::SameLine();
     ImGui::Checkbox("Light", &v->is_light);
     panel_tip("dark letters on a light panel");
+    if (ImGui::Button(v->corners.is_on ? "Corners: done" : "Corners")) {
+        viewer_toggle_corners(v);
+    }
+    panel_tip("drag the picture's four corners, for a projector that stands askew");
 }
 
 static void wish_setting(viewer_panel *p, const rlf_window_setting *s, const char *value)

@@ -8,7 +8,7 @@
 
 void viewer_save_picture(viewer *v)
 {
-    char text[VIEWER_LINE_SIZE] = "";
+    char text[VIEWER_MESSAGE_SIZE] = "";
     const rlf_window_def *o = v->options;
     const rlf_image_rgba8 *image = &v->frame.render.image;
     if (!v->has_frame) {
@@ -22,7 +22,7 @@ void viewer_save_picture(viewer *v)
     char path[64];
     (void)snprintf(path, sizeof path, "relief-%06lld.png", (long long)v->frames_done);
     (void)snprintf(text, sizeof text, "saved %s", path);
-    viewer_show_result(v, rlf_png_write_rgba(path, image), text);
+    viewer_show_result(v, rlf_png_write_premultiplied(path, image), text);
 }
 
 /* ---- recording ------------------------------------------------------------------------------ */
@@ -42,6 +42,7 @@ static rlf_result begin(viewer *v)
         return rlf_fail(RLF_ERROR_DEVICE, "this machine's clock gives no time to name a file by");
     }
     const rlf_recording_def def = rlf_recording_def_default();
+    v->recording_ns = rlf_clock_ns();
     return rlf_recording_open(v->recording_path, &info, &def, &v->recording);
 }
 
@@ -86,8 +87,9 @@ bool viewer_describe_recording(const viewer *v, char *out, size_t size)
     const rlf_window_def *o = v->options;
     if (v->recording != NULL) {
         const rlf_recording_status status = rlf_recording_get_status(v->recording);
-        (void)snprintf(out, size, "recording %s: %llu frames", v->recording_path,
-                       (unsigned long long)status.frames);
+        const int64_t seconds = (rlf_clock_ns() - v->recording_ns) / (int64_t)VIEWER_NS_PER_S;
+        (void)snprintf(out, size, "%d:%02d  recording %s: %llu frames", (int)(seconds / 60),
+                       (int)(seconds % 60), v->recording_path, (unsigned long long)status.frames);
         return true;
     }
     return o->on_status != NULL && o->on_status(o->context, out, size);

@@ -1,6 +1,8 @@
 /* Full screen on any monitor, and monitors that go. */
 #include "viewer/window.h"
 
+#include "relief/math.h"
+
 #include <GLFW/glfw3.h>
 #include <stdio.h>
 
@@ -8,11 +10,36 @@
 
 static viewer_window *watched; /* GLFW tells of monitors without saying for which window */
 
-static GLFWmonitor *find(int32_t number)
+/* The one that most of the window is on. */
+static GLFWmonitor *find_under(const viewer_window *window, GLFWmonitor **monitors, int count)
+{
+    int x, y, width, height, most = 0;
+    GLFWmonitor *found = glfwGetPrimaryMonitor();
+    glfwGetWindowPos(window->handle, &x, &y);
+    glfwGetWindowSize(window->handle, &width, &height);
+    for (int i = 0; i < count; i++) {
+        int left, top;
+        const GLFWvidmode *mode = glfwGetVideoMode(monitors[i]);
+        glfwGetMonitorPos(monitors[i], &left, &top);
+        const int wide =
+            mode == NULL ? 0 : (int)(rlf_min(x + width, left + mode->width) - rlf_max(x, left));
+        const int high =
+            mode == NULL ? 0 : (int)(rlf_min(y + height, top + mode->height) - rlf_max(y, top));
+        if (wide > 0 && high > 0 && wide * high > most) {
+            most = wide * high;
+            found = monitors[i];
+        }
+    }
+    return found;
+}
+
+static GLFWmonitor *find(const viewer_window *window)
 {
     int count = 0;
+    const int32_t number = window->screen_number;
     GLFWmonitor **monitors = glfwGetMonitors(&count);
-    return number > 0 && number <= count ? monitors[number - 1] : glfwGetPrimaryMonitor();
+    return number > 0 && number <= count ? monitors[number - 1]
+                                         : find_under(window, monitors, count);
 }
 
 static rlf_result fail_number(int32_t number)
@@ -50,7 +77,7 @@ rlf_result viewer_screen_choose(viewer_window *window, int32_t number)
     }
     window->screen_number = number;
     if (number > 0 && !viewer_screen_is_full(window)) {
-        move_to(window, find(number));
+        move_to(window, find(window));
     }
     return RLF_OK;
 }
@@ -74,7 +101,7 @@ void viewer_screen_toggle(viewer_window *window)
         leave(window);
         return;
     }
-    GLFWmonitor *monitor = find(window->screen_number);
+    GLFWmonitor *monitor = find(window);
     const GLFWvidmode *mode = monitor != NULL ? glfwGetVideoMode(monitor) : NULL;
     if (mode == NULL) {
         return;
@@ -88,9 +115,19 @@ void viewer_screen_toggle(viewer_window *window)
                          mode->refreshRate);
 }
 
-void viewer_screen_hide_pointer(viewer_window *window, int64_t now_ns)
+void viewer_screen_settle(viewer_window *window, int64_t now_ns)
 {
-    const bool is_hidden = viewer_screen_is_full(window) && now_ns - window->moved_ns > POINTER_NS;
+    if (window->is_full_due) {
+        window->is_full_due = false;
+        if (viewer_screen_is_full(window) && window->screen != find(window)) {
+            leave(window);
+        }
+        if (!viewer_screen_is_full(window)) {
+            viewer_screen_toggle(window);
+        }
+    }
+    const bool rests = window->is_kiosk || now_ns - window->moved_ns > POINTER_NS;
+    const bool is_hidden = viewer_screen_is_full(window) && rests && !window->needs_pointer;
     if (is_hidden != window->is_pointer_hidden) {
         glfwSetInputMode(window->handle, GLFW_CURSOR,
                          is_hidden ? GLFW_CURSOR_HIDDEN : GLFW_CURSOR_NORMAL);
@@ -100,10 +137,15 @@ void viewer_screen_hide_pointer(viewer_window *window, int64_t now_ns)
 
 static void on_monitor(GLFWmonitor *monitor, int event)
 {
-    if (watched == NULL || event != GLFW_DISCONNECTED || watched->screen != monitor) {
+    if (watched == NULL) {
         return;
     }
-    watched->screen_number = 0;
+    watched->is_full_due = watched->is_kiosk;
+    if (event != GLFW_DISCONNECTED || watched->screen != monitor) {
+        return;
+    }
+    rlf_log(RLF_LOG_WARNING, "window: the monitor of the full screen is gone");
+    watched->screen_number = watched->is_kiosk ? watched->screen_number : 0;
     leave(watched);
     if (glfwGetPrimaryMonitor() != NULL) {
         move_to(watched, glfwGetPrimaryMonitor());

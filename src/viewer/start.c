@@ -13,6 +13,7 @@
 
 #define WIDTH 480 /* of the picture; the window is twice as large */
 #define HEIGHT 270
+#define KEY_O 10 /* the view that it is for in the window */
 #define WAIT_S 0.05
 #define HEAD 1 /* lines over the list */
 #define FOOT 1
@@ -58,6 +59,9 @@ static void look_again(start_page *page)
 {
     page->count = page->list(page->context, page->choices);
     page->selected = page->selected < page->count ? page->selected : 0;
+    if (page->menu != NULL) {
+        viewer_menu_look(page->menu, page->choices, page->count);
+    }
 }
 
 /* What is selected is shown. */
@@ -112,7 +116,10 @@ static void present(start_page *page)
     if (width > 0 && height > 0) {
         rlf_gl_presenter_draw(page->presenter, &page->frame.render.image, width, height);
         if (page->menu != NULL) {
-            choose(page, viewer_menu_draw(page->menu, page->choices, page->count, page->selected));
+            const int32_t clicked =
+                viewer_menu_draw(page->menu, page->choices, page->count, page->selected);
+            page->count += clicked == page->count ? 1 : 0;
+            choose(page, clicked);
         }
         viewer_window_swap(&page->window);
     }
@@ -124,7 +131,7 @@ static void click(start_page *page, double x, double y)
     int32_t height;
     double u, v;
     viewer_window_get_size(&page->window, &width, &height);
-    const viewer_fit fit = {width, height, WIDTH, HEIGHT};
+    const viewer_fit fit = {width, height, WIDTH, HEIGHT, false, NULL};
     if (width > 0 && height > 0 && viewer_fit_pick(&fit, x, y, &u, &v) && v >= LINE_START) {
         const int32_t row = (int32_t)((v - LINE_START) / LINE_PITCH) - HEAD;
         choose(page, row >= 0 && row < ROWS ? page->first + row : -1);
@@ -139,6 +146,11 @@ static bool run_commands(start_page *page)
     if (commands.restart) {
         look_again(page);
     }
+    if (page->menu != NULL && (commands.open_files || commands.view == KEY_O)) {
+        viewer_menu_open_files(page->menu);
+    } else {
+        choose(page, commands.view);
+    }
     if (commands.leave) {
         viewer_window_leave(&page->window);
     }
@@ -146,7 +158,6 @@ static bool run_commands(start_page *page)
     const int32_t step = commands.nudge_y - turned;
     const int32_t selected = page->selected + step;
     page->selected = (int32_t)rlf_clamp(selected, 0, page->count - 1);
-    choose(page, commands.view);
     if (commands.solve_points) {
         choose(page, page->selected);
     }
@@ -197,8 +208,8 @@ rlf_result rlf_window_choose(rlf_window_list_fn list, void *context,
     result = rlf_gl_presenter_create(&page.presenter);
     result = result == RLF_OK ? open_room(&page) : result;
     if (result == RLF_OK) {
-        look_again(&page);
         page.menu = viewer_menu_create(&page.window);
+        look_again(&page);
         result = run(&page, interrupted);
         viewer_menu_destroy(&page.menu);
     }

@@ -2,6 +2,7 @@
 #ifndef RLF_VIEWER_STATE_H
 #define RLF_VIEWER_STATE_H
 
+#include "viewer/corners.h"
 #include "viewer/mouse.h"
 #include "viewer/panel.h"
 #include "relief/window.h"
@@ -27,6 +28,27 @@ typedef struct viewer_message {
     bool is_error;
 } viewer_message;
 
+#define VIEWER_UNDO_MAX 256
+
+/* A deleted body; those of one group went together. */
+typedef struct viewer_removed {
+    rlf_body_def def;
+    int32_t group;
+} viewer_removed;
+
+typedef struct viewer_undo {
+    viewer_removed removed[VIEWER_UNDO_MAX]; /* a ring: the oldest is forgotten */
+    int32_t next, count, group;
+} viewer_undo;
+
+/* What a kiosk waits for. */
+typedef struct kiosk {
+    bool is_lost;                       /* there is no source now */
+    int64_t lost_ns, again_ns, wait_ns; /* since when, next attempt, pause before it */
+    int32_t silent_limit_s;             /* seconds without a frame, after which it is lost */
+    char why[VIEWER_MESSAGE_SIZE];      /* last reason that was told */
+} kiosk;
+
 typedef struct viewer {
     rlf_window_stage stage;
     const rlf_window_def *options;
@@ -48,6 +70,10 @@ typedef struct viewer {
     int32_t thrown_count;
     viewer_grab grab;
     viewer_place place;
+    viewer_corners corners;
+    viewer_undo undo;
+    kiosk kiosk;
+    bool fills;           /* the window, cut; else with bars */
     int64_t due_ns;       /* of the next frame */
     int64_t last_step_ns; /* when the last one was done; 0 = none */
     double gap_s;         /* between the last two frames, by their own times */
@@ -60,11 +86,15 @@ typedef struct viewer {
     viewer_panel *panel; /* NULL = none */
     bool shows_panel;
     int32_t extra_presents; /* the panel shows what it was told one picture later */
+    double present_ms;      /* cost of putting the picture into the window, smoothed */
+    int32_t slow_frames;    /* in a row that took longer than the source's period */
+    bool is_half;           /* the picture is drawn at half its size */
     double panel_ms;        /* cost of the last picture's */
     viewer_message messages[VIEWER_MESSAGES_MAX]; /* the newest first */
     int32_t message_count;
     rlf_recording *recording; /* of the window's own; NULL = none */
     char recording_path[64];
+    int64_t recording_ns; /* when it began */
     char lines[VIEWER_LINES_MAX][VIEWER_LINE_SIZE];
     viewer_mark line_marks[VIEWER_LINES_MAX]; /* before their text */
     int32_t line_count;
@@ -132,6 +162,31 @@ void viewer_press(viewer *v, viewer_commands *commands);
 void viewer_follow_mouse(viewer *v);
 void viewer_click(viewer *v, const viewer_commands *commands);
 void viewer_delete(viewer *v);
+
+/* undo.c: deletes bodies so that they can come back. */
+void viewer_remove_body(viewer *v, rlf_body_id id);
+void viewer_remove_all(viewer *v);
+void viewer_bring_back(viewer *v);
+
+/* kiosk.c: whether the source is opened again by itself; that it is gone, and why; what to do while
+ * no frame comes; and an attempt, when one is due. */
+bool viewer_kiosk_is_on(const viewer *v);
+void viewer_kiosk_lose(viewer *v, const char *why);
+void viewer_kiosk_note_silence(viewer *v);
+void viewer_kiosk_try(viewer *v, int64_t now_ns);
+
+/* pace.c: after each frame: draws the picture at half its size where the machine cannot keep the
+ * source's rate; and at its own again. */
+void viewer_keep_pace(viewer *v);
+void viewer_draw_whole(viewer *v);
+
+/* output.c: how the picture fills the window, and the marks of corners that are moved. */
+void viewer_toggle_fill(viewer *v);
+void viewer_toggle_corners(viewer *v);
+void viewer_run_corners(viewer *v, const viewer_commands *commands);
+bool viewer_press_corner(viewer *v, const viewer_commands *commands);
+void viewer_drag_corner(viewer *v);
+void viewer_draw_corners(viewer *v, int32_t width, int32_t height);
 
 /* commands.c: does what keys and mouse asked for since the last call. */
 void viewer_run_commands(viewer *v);

@@ -3,11 +3,26 @@
 
 #define START_M 0.29 /* ahead of the camera, so that the body does not fill the picture */
 
+/* Where the picture would be at that place of the window if nothing were askew. */
+static bool map_place(const viewer_fit *fit, double *x, double *y)
+{
+    const rlf_vec3 at = {*x / fit->window_width, *y / fit->window_height, 1.0};
+    const rlf_vec3 mapped = rlf_mat3_mul_vec(fit->map, at);
+    *x = mapped.x / mapped.z * fit->window_width;
+    *y = mapped.y / mapped.z * fit->window_height;
+    return mapped.z > 0.0 && *x >= 0.0 && *x <= fit->window_width && *y >= 0.0 &&
+           *y <= fit->window_height;
+}
+
 bool viewer_fit_pick(const viewer_fit *fit, double window_x, double window_y, double *out_u,
                      double *out_v)
 {
-    double scale =
-        rlf_min(fit->window_width / fit->picture_width, fit->window_height / fit->picture_height);
+    const double wide = fit->window_width / fit->picture_width;
+    const double high = fit->window_height / fit->picture_height;
+    const double scale = fit->fills ? rlf_max(wide, high) : rlf_min(wide, high);
+    if (fit->map != NULL && !map_place(fit, &window_x, &window_y)) {
+        return false;
+    }
     double left = 0.5 * (fit->window_width - scale * fit->picture_width);
     double top = 0.5 * (fit->window_height - scale * fit->picture_height);
     /* Window positions count from pixel corners, picture pixels from centres. */

@@ -61,6 +61,7 @@ static void note_silence(viewer *v)
     const int32_t silent_s = (int32_t)rlf_source_get_status(v->stage.source).silence_s;
     v->is_redraw_due = v->is_redraw_due || silent_s != v->silent_s;
     v->silent_s = silent_s;
+    viewer_kiosk_note_silence(v);
 }
 
 /* The frame after `due` is one period later; a loop that has fallen behind does not race. */
@@ -103,6 +104,9 @@ static rlf_result step(viewer *v)
         note_silence(v);
         return RLF_OK;
     }
+    if (result == RLF_END && viewer_kiosk_is_on(v)) {
+        return rlf_fail(RLF_END, "%s has ended", v->stage.source_name);
+    }
     if (result == RLF_END) {
         v->is_at_end = true;
         v->is_step_due = false;
@@ -118,7 +122,7 @@ static rlf_result step(viewer *v)
     }
     note_gap(v, before_ns);
     v->has_frame = true;
-    v->silent_s = 0;
+    v->silent_s = v->kiosk.silent_limit_s = 0;
     v->is_step_due = false;
     v->is_redraw_due = false;
     v->is_present_due = true;
@@ -126,8 +130,10 @@ static rlf_result step(viewer *v)
     viewer_note_plot(v);
     v->frames_done++;
     viewer_record_frame(v);
-    return v->options->on_frame != NULL ? v->options->on_frame(v->options->context, &v->frame)
-                                        : RLF_OK;
+    result = v->options->on_frame != NULL ? v->options->on_frame(v->options->context, &v->frame)
+                                          : RLF_OK;
+    viewer_keep_pace(v);
+    return result;
 }
 
 static rlf_result redraw(viewer *v)
@@ -173,11 +179,16 @@ static void present(viewer *v)
     if (width < 1 || height < 1 || window_width < 1 || v->frame.render.image.data == NULL) {
         return;
     }
+    const int64_t before = rlf_clock_ns();
     const int32_t shown = (int32_t)((int64_t)width * area_width / window_width);
     viewer_place_draw(&v->place, &v->frame.render.image);
     rlf_gl_presenter_set_mirror(v->presenter, v->is_mirrored);
+    rlf_gl_presenter_set_place(v->presenter, v->fills,
+                               v->corners.is_askew ? &v->corners.map : NULL);
     rlf_gl_presenter_draw(v->presenter, &v->frame.render.image, shown, height);
+    smooth(&v->present_ms, 1e-6 * (double)(rlf_clock_ns() - before), v->present_ms == 0.0);
     viewer_draw_overlay(v, shown, height);
+    viewer_draw_corners(v, shown, height);
     draw_panel(v);
     viewer_window_swap(&v->window);
 }
@@ -203,21 +214,31 @@ static void wait_for_events(viewer *v, bool is_playing)
     viewer_window_poll(&v->window, wait_s);
 }
 
+static bool is_playing_now(const viewer *v)
+{
+    return !v->is_paused && !v->is_at_end && !v->kiosk.is_lost;
+}
+
 static rlf_result run_loop(viewer *v)
 {
     rlf_result result = RLF_OK;
     while (result == RLF_OK && !is_done(v)) {
-        bool is_playing = !v->is_paused && !v->is_at_end;
+        bool is_playing = is_playing_now(v);
         wait_for_events(v, is_playing);
         measure_panel(v);
         viewer_run_commands(v);
         measure_panel(v);
         int64_t now = rlf_clock_ns();
         viewer_end_old_messages(v, now);
-        viewer_screen_hide_pointer(&v->window, now);
-        is_playing = !v->is_paused && !v->is_at_end;
+        viewer_screen_settle(&v->window, now);
+        viewer_kiosk_try(v, now);
+        is_playing = is_playing_now(v);
         if (v->is_step_due || (is_playing && now >= v->due_ns)) {
             result = step(v);
+            if (result != RLF_OK && viewer_kiosk_is_on(v)) {
+                viewer_kiosk_lose(v, rlf_error_text());
+                result = RLF_OK;
+            }
         } else if (v->window.is_dragging && !is_playing && v->has_frame) {
             v->is_present_due = true; /* the speed of the throw changes with the mouse */
         }
@@ -261,6 +282,8 @@ static void begin(viewer *v, rlf_pipeline *pipeline, const rlf_window_def *optio
     v->hint_end_ns = options->show_help ? rlf_clock_ns() + HINT_NS : 0;
     v->is_light = options->has_light_panel;
     v->is_mirrored = options->is_mirrored;
+    v->fills = options->fills;
+    viewer_corners_load(&v->corners, options->corners_path);
     v->view = options->views[options->view_count > 1 ? options->view_count - 1 : 0];
     v->is_beside = options->view_count == 2 && options->views[0] == RLF_VIEW_CAMERA;
     v->orbit = options->orbit;
@@ -270,8 +293,9 @@ static void begin(viewer *v, rlf_pipeline *pipeline, const rlf_window_def *optio
 
 static rlf_result run_in_window(viewer *v)
 {
+    v->window.is_kiosk = v->options->is_kiosk;
     rlf_result result = viewer_screen_choose(&v->window, v->options->monitor);
-    if (result == RLF_OK && v->options->is_fullscreen) {
+    if (result == RLF_OK && (v->options->is_fullscreen || v->options->is_kiosk)) {
         viewer_screen_toggle(&v->window);
     }
     if (result == RLF_OK) {

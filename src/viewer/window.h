@@ -18,6 +18,9 @@ typedef struct viewer_commands {
     bool press;              /* the left button went down */
     double press_x, press_y; /* where, window position */
     bool delete_body;        /* the one under the mouse */
+    bool open_files;         /* the list to choose one from */
+    bool bring_back;         /* those that were deleted last */
+    bool toggle_fill, toggle_corners;
     bool toggle_overlay, toggle_mirror, toggle_panel, next_end, next_shape;
     bool leave;          /* what is over the window's usual state; else the program */
     bool is_screen_lost; /* the monitor of the full screen was unplugged */
@@ -44,7 +47,10 @@ typedef struct viewer_window {
     bool is_turning;
     double turned_x, turned_y; /* the mouse's last position while turning */
     int32_t windowed[4];       /* x, y, width, height before full screen */
-    int32_t screen_number;     /* of the monitor for full screen, from 1; 0 = the primary one */
+    int32_t screen_number;     /* of the monitor for full screen, from 1; 0 = where it is */
+    bool is_kiosk;             /* full screen comes back with a monitor, and has no pointer */
+    bool is_full_due;          /* a monitor came or went */
+    bool needs_pointer;        /* for what is done in full screen */
     GLFWmonitor *screen;       /* that the full screen is on; NULL = none */
     int32_t panel_width; /* at the right, in the unit of mouse positions; 0 = it is not shown */
     bool is_list_open;   /* in the panel: the mouse is its alone, wherever it is */
@@ -91,13 +97,14 @@ void viewer_window_swap(viewer_window *window);
 void viewer_window_take_input(viewer_window *window);
 
 /* screen.c: chooses the monitor for full screen, from 1 in the order of `relief run --window
- * monitor=N`; 0 = the primary one. A window goes there, too. RLF_ERROR_INVALID lists them when
- * there is none. */
+ * full=N`; 0 = the one that the window is on. A window goes there, too. RLF_ERROR_INVALID lists
+ * them when there is none. */
 rlf_result viewer_screen_choose(viewer_window *window, int32_t number);
 void viewer_screen_toggle(viewer_window *window);
 bool viewer_screen_is_full(const viewer_window *window);
-/* Hides the pointer of a full screen while the mouse rests, and shows it otherwise. */
-void viewer_screen_hide_pointer(viewer_window *window, int64_t now_ns);
+/* Hides the pointer of a full screen while the mouse rests, a kiosk's always, and shows it
+ * otherwise. Takes a kiosk back to full screen after its monitor came or went. */
+void viewer_screen_settle(viewer_window *window, int64_t now_ns);
 /* Watches monitors: when the one of the full screen is unplugged, the window is as it was before.
  */
 void viewer_screen_watch(viewer_window *window);

@@ -38,6 +38,14 @@ if(TARGET relief_app)
   set_tests_properties(app.room PROPERTIES LABELS app TIMEOUT 600)
 endif()
 
+# Several cameras of one room.
+if(TARGET relief_app)
+  add_test(NAME app.cameras
+           COMMAND sh ${PROJECT_SOURCE_DIR}/tests/app/test_cameras.sh $<TARGET_FILE:relief_app>
+                   ${CMAKE_CURRENT_BINARY_DIR}/app_cameras)
+  set_tests_properties(app.cameras PROPERTIES LABELS app TIMEOUT 600)
+endif()
+
 # Recording as a user meets it.
 if(TARGET relief_app AND RELIEF_WITH_MCAP)
   add_test(NAME app.record
@@ -84,6 +92,7 @@ endif()
 
 if(TARGET relief_app AND RELIEF_WITH_VIEWER)
   relief_test(${PROJECT_SOURCE_DIR}/tests/app/test_recent.c app)
-  target_sources(test_recent PRIVATE ${PROJECT_SOURCE_DIR}/app/recent.c)
+  target_sources(test_recent PRIVATE ${PROJECT_SOURCE_DIR}/app/picture_file.c
+                 ${PROJECT_SOURCE_DIR}/app/recent.c ${PROJECT_SOURCE_DIR}/app/state_folder.c)
   target_include_directories(test_recent PRIVATE ${PROJECT_SOURCE_DIR}/app)
 endif()

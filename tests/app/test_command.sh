@@ -72,8 +72,8 @@ expect_error 2 "has no 'evry': did you mean 'every'" run synthetic:room --pictur
 expect_error 2 "--pictures every '0': use a number from 1" run synthetic:room --pictures 'here?every=0'
 expect_error 2 "--window end 'never': use loop, hold or stop" run synthetic:room --window full,end=never
 expect_error 2 "--window has no 'ful': did you mean 'full'" run synthetic:room --window ful
-expect_error 2 "--window full takes no value" run synthetic:room --window full=2
-expect_error 2 "the value is missing" run synthetic:room --window monitor
+expect_error 2 "--window full 'two': use a monitor's number" run synthetic:room --window full=two
+expect_error 2 "the value is missing" run synthetic:room --window text
 
 # A word of an earlier version is answered with today's.
 expect_error 2 "^relief: 'sources' is now \`relief list sources\`" sources

@@ -9,7 +9,7 @@ if(RELIEF_XVFB_RUN)
   # A server that starts anew when its last window closes refuses the next one meanwhile.
   set(launcher ${RELIEF_XVFB_RUN} -a -s "-screen 0 1280x1024x24 -noreset")
 endif()
-foreach(name viewer_test viewer_live_test viewer_play_test)
+foreach(name viewer_test viewer_live_test viewer_output_test viewer_play_test)
   string(REGEX REPLACE "_test$" "" what ${name})
   add_executable(${name} ${CMAKE_CURRENT_LIST_DIR}/${name}.c)
   relief_settings(${name})

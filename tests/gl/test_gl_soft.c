@@ -430,7 +430,8 @@ static double share_of_changes(const rlf_image_rgba8 *a, const rlf_image_rgba8 *
     return (double)count / ((double)a->width * a->height);
 }
 
-/* The wireframe lies on the same lines; every other view is the soft renderer's own. */
+/* The wireframe lies on the same lines, bodies alone are alike; every other view is the soft
+ * renderer's own. */
 static void test_views(void **state)
 {
     (void)state;
@@ -450,6 +451,15 @@ static void test_views(void **state)
     print_message("mesh: lines %.3f of the picture, differing %.3f\n", lines, changes);
     assert_true(lines > 0.2 && lines < 0.7);
     assert_true(changes < 0.5 * lines); /* the two draw the edges of a line differently */
+    scene.input.view = RLF_VIEW_BODIES;
+    assert_int_equal(rlf_compositor_render(soft, &scene.input, &a), RLF_OK);
+    assert_int_equal(rlf_compositor_render(gl, &scene.input, &b), RLF_OK);
+    const difference alone = compare(&a, &b);
+    assert_true(alone.inside > 1500 && alone.mean <= mean_limit && alone.iou >= iou_limit);
+    assert_true(alone.elsewhere == 0.0);
+    for (int32_t i = 0; i < SCENE_WIDTH * SCENE_HEIGHT; i++) {
+        assert_int_equal(b.image.data[4 * i + 3], b.matte.data[i]);
+    }
     scene.input.view = RLF_VIEW_DEPTH;
     assert_int_equal(rlf_compositor_render(soft, &scene.input, &a), RLF_OK);
     assert_int_equal(rlf_compositor_render(gl, &scene.input, &b), RLF_OK);

@@ -18,7 +18,7 @@ static void test_pick(void **state)
     (void)state;
     /* A picture of 200 x 100 in a window of 400 x 400: twice as large, bars of 100 above and below.
      */
-    const viewer_fit fit = {400, 400, 200, 100};
+    const viewer_fit fit = {400, 400, 200, 100, false, NULL};
     double u, v;
     assert_true(viewer_fit_pick(&fit, 1.0, 101.0, &u, &v));
     assert_float_equal(u, 0.0, 1e-9);

@@ -118,6 +118,21 @@ static void jpeg_is_red_and_blue(void **state)
     rlf_free(got.data);
 }
 
+/* A PNG's colours are not multiplied by its alpha; what is clear or opaque stays as it is. */
+static void premultiplied_colors_are_divided(void **state)
+{
+    (void)state;
+    uint8_t data[16] = {50, 20, 0, 100, 0, 0, 0, 0, 7, 8, 9, 255, 64, 128, 1, 128};
+    const uint8_t expected[16] = {128, 51, 0, 100, 0, 0, 0, 0, 7, 8, 9, 255, 128, 255, 2, 128};
+    const rlf_image_rgba8 image = {data, 4, 1, 16};
+    rlf_image_rgba8 got;
+    assert_int_equal(rlf_png_write_premultiplied(test_path("m.png"), &image), RLF_OK);
+    assert_int_equal(data[0], 50);
+    assert_int_equal(rlf_picture_read(test_path("m.png"), &got), RLF_OK);
+    assert_memory_equal(got.data, expected, sizeof expected);
+    rlf_free(got.data);
+}
+
 static void alpha_is_dropped_when_asked(void **state)
 {
     (void)state;
@@ -286,6 +301,7 @@ int main(void)
         cmocka_unit_test(sixteen_bit_color_keeps_its_bits),
         cmocka_unit_test(sixteen_bit_png_reads_as_picture),
         cmocka_unit_test(jpeg_is_red_and_blue),
+        cmocka_unit_test(premultiplied_colors_are_divided),
         cmocka_unit_test(alpha_is_dropped_when_asked),
         cmocka_unit_test(truncated_pictures_are_refused),
         cmocka_unit_test(damaged_data_is_refused),

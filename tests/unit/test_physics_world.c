@@ -6,6 +6,7 @@
 #include "grid_fixture.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static int assert_count;
@@ -148,6 +149,47 @@ static void handles_go_stale(void **state)
     rlf_world_destroy(&world);
 }
 
+/* A body that was taken away comes back, and then does what it would have done. */
+static void a_body_comes_back_as_it_was(void **state)
+{
+    (void)state;
+    rlf_world *one = make_world(RLF_PHYSICS_LIVE, 2, NULL);
+    rlf_world *other = make_world(RLF_PHYSICS_LIVE, 2, NULL);
+    rlf_body_def def = rlf_body_def_default(), again;
+    rlf_body_id id;
+    snprintf(def.name, sizeof def.name, "crate");
+    def.velocity = rlf_vec3_make(0.5, -1, 0.2);
+    def.angular_velocity = rlf_vec3_make(1, 2, 3);
+    def.restitution = 0.8;
+    def.friction = 0.1;
+    def.gravity_scale = 0.5;
+    def.linear_damping = 0.3;
+    def.angular_damping = 0.2;
+    def.rolling_resistance = 0.01;
+    assert_int_equal(rlf_world_add_body(one, &def, &id), RLF_OK);
+    assert_true(rlf_world_get_body_def(one, id, &again));
+    again.orientation = def.orientation; /* normalised there */
+    assert_memory_equal(&again, &def, sizeof def);
+    for (int i = 0; i < 5; i++) {
+        rlf_world_advance(one, NULL, 1.0 / 30);
+    }
+    assert_true(rlf_world_get_body_def(one, id, &again));
+    assert_int_equal(rlf_world_add_body(other, &again, NULL), RLF_OK);
+    for (int i = 0; i < 5; i++) {
+        rlf_world_advance(one, NULL, 1.0 / 30);
+        rlf_world_advance(other, NULL, 1.0 / 30);
+    }
+    const rlf_body_state *a = rlf_world_get_snapshot(one)->bodies;
+    const rlf_body_state *b = rlf_world_get_snapshot(other)->bodies;
+    assert_string_equal(b->name, "crate");
+    assert_true(rlf_length(rlf_sub(a->T_world_body.p, b->T_world_body.p)) < 1e-9);
+    assert_true(rlf_length(rlf_sub(a->angular_velocity, b->angular_velocity)) < 1e-6);
+    rlf_world_remove_body(one, id);
+    assert_false(rlf_world_get_body_def(one, id, &again));
+    rlf_world_destroy(&one);
+    rlf_world_destroy(&other);
+}
+
 /* An index beyond any that there can be names nothing. */
 static void no_handle_is_out_of_range(void **state)
 {
@@ -281,6 +323,7 @@ int main(void)
         cmocka_unit_test(bad_bodies_are_named),
         cmocka_unit_test(bad_worlds_are_named),
         cmocka_unit_test(handles_go_stale),
+        cmocka_unit_test(a_body_comes_back_as_it_was),
         cmocka_unit_test(no_handle_is_out_of_range),
         cmocka_unit_test(leaves_at_the_bounds),
         cmocka_unit_test(odd_time_steps_are_told_and_do_nothing),

@@ -18,7 +18,7 @@ const PLANES = {
   rayY: [13, Float32Array],
 };
 export const VIEWS = ['camera', 'depth', 'normals', 'mesh', 'regions', 'foreground', 'background',
-  'velocity', 'thickness', 'reason', 'points', 'contacts', 'known', 'hands', 'map'];
+  'velocity', 'thickness', 'reason', 'points', 'contacts', 'known', 'hands', 'map', 'bodies'];
 const SHAPES = ['box', 'sphere', 'capsule', 'cylinder', 'hull'];
 const KINDS = ['cube', 'ball', 'capsule', 'cylinder'];
 const OTHERS = ['body', 'background', 'foreground'];

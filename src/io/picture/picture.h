@@ -101,7 +101,8 @@ typedef enum io_png_pixels {
     IO_PNG_GREY_U8 = 0,
     IO_PNG_GREY_U16 = 1,
     IO_PNG_RGBA = 2,
-    IO_PNG_RGB = 3 /* given as RGBA; alpha is left out */
+    IO_PNG_RGB = 3,          /* given as RGBA; alpha is left out */
+    IO_PNG_PREMULTIPLIED = 4 /* given as RGBA whose colours alpha was multiplied into */
 } io_png_pixels;
 
 typedef struct io_png_def {

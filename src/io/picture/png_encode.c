@@ -43,10 +43,24 @@ static void flush_bytes(png_structp png)
     (void)png;
 }
 
+/* libpng's own copy of a row: divides colours by their alpha, to the nearest. */
+static void straighten(png_structp png, png_row_infop row, png_bytep data)
+{
+    (void)png;
+    for (png_uint_32 i = 0; i < row->width; i++) {
+        uint8_t *pixel = data + 4 * (size_t)i;
+        const int32_t alpha = pixel[3];
+        for (int c = 0; c < 3 && alpha > 0 && alpha < 255; c++) {
+            const int32_t color = (255 * pixel[c] + alpha / 2) / alpha;
+            pixel[c] = (uint8_t)(color < 255 ? color : 255);
+        }
+    }
+}
+
 static void encode(writer *w)
 {
-    static const int types[4] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_RGBA,
-                                 PNG_COLOR_TYPE_RGB};
+    static const int types[5] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_RGBA,
+                                 PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGBA};
     const io_png_def *d = w->def;
     png_set_write_fn(w->png, w, write_bytes, flush_bytes);
     png_set_IHDR(w->png, w->info, (png_uint_32)d->width, (png_uint_32)d->height,
@@ -59,6 +73,9 @@ static void encode(writer *w)
     }
     if (d->pixels == IO_PNG_RGB) {
         png_set_filler(w->png, 0, PNG_FILLER_AFTER);
+    }
+    if (d->pixels == IO_PNG_PREMULTIPLIED) {
+        png_set_write_user_transform_fn(w->png, straighten);
     }
     for (int32_t y = 0; y < d->height; y++) {
         png_write_row(w->png, (const uint8_t *)d->data + (ptrdiff_t)y * d->stride);
@@ -113,15 +130,25 @@ static rlf_result write_picture(const io_png_def *def)
     return result;
 }
 
-rlf_result rlf_png_write_rgba(const char *path, const rlf_image_rgba8 *image)
+static rlf_result write_rgba(const char *path, const rlf_image_rgba8 *image, io_png_pixels pixels)
 {
     if (!RLF_ASSERT(path != NULL && image != NULL && image->data != NULL) ||
         !RLF_ASSERT(is_size_usable(image->width, image->height))) {
         return RLF_ERROR_INVALID;
     }
     const io_png_def def = {path,          image->data, image->width,     image->height,
-                            image->stride, IO_PNG_RGBA, COMPRESSION_LEVEL};
+                            image->stride, pixels,      COMPRESSION_LEVEL};
     return write_picture(&def);
+}
+
+rlf_result rlf_png_write_rgba(const char *path, const rlf_image_rgba8 *image)
+{
+    return write_rgba(path, image, IO_PNG_RGBA);
+}
+
+rlf_result rlf_png_write_premultiplied(const char *path, const rlf_image_rgba8 *image)
+{
+    return write_rgba(path, image, IO_PNG_PREMULTIPLIED);
 }
 
 rlf_result rlf_png_write_u8(const char *path, const rlf_plane_u8 *plane)

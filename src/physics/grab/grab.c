@@ -327,7 +327,7 @@ void phys_grab_release_all(rlf_world *world)
 void phys_grab_pull(const rlf_world *world, phys_body *body)
 {
     const phys_grab *grab = body->grab;
-    double tau = rlf_clamp(world->grid_tau, -1.0, 0.1);
+    double tau = rlf_clamp(world->views[0].tau, -1.0, 0.1);
     rlf_vec3 place = rlf_mad(rlf_transform(&grab->T_world_hand, grab->seat), grab->v, tau);
     rlf_quat turn = rlf_quat_from_rotation_vector(rlf_scale(grab->w, tau));
     turn = rlf_quat_mul(rlf_quat_mul(turn, grab->T_world_hand.q), rlf_quat_conjugate(body->q));

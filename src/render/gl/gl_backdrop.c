@@ -153,6 +153,14 @@ static void unbind(void)
     glUseProgram(0);
 }
 
+void gl_backdrop_clear(const gl_backdrop *backdrop)
+{
+    bind(backdrop);
+    glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+    unbind();
+}
+
 void gl_backdrop_draw_color(const gl_backdrop *backdrop, const gl_texture *color)
 {
     bind(backdrop);

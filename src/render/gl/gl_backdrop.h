@@ -22,6 +22,8 @@ typedef struct gl_backdrop {
 rlf_result gl_backdrop_create(bool is_es, int32_t width, int32_t height, gl_backdrop *out);
 void gl_backdrop_destroy(gl_backdrop *backdrop);
 
+/* Nothing: black, for bodies alone. */
+void gl_backdrop_clear(const gl_backdrop *backdrop);
 /* Each draws over what is there; the framebuffer stays bound after the first of the two. */
 void gl_backdrop_draw_color(const gl_backdrop *backdrop, const gl_texture *color);
 /* Near is light, far is dark, unknown is black. */

@@ -263,8 +263,8 @@ rlf_result rlf_gl_compositor_create(const rlf_compositor_def *def, bool use_curr
 
 static bool has_bodies(const rlf_render_input *input)
 {
-    return input->view == RLF_VIEW_CAMERA && input->snapshot != NULL &&
-           input->snapshot->body_count > 0;
+    return (input->view == RLF_VIEW_CAMERA || input->view == RLF_VIEW_BODIES) &&
+           input->snapshot != NULL && input->snapshot->body_count > 0;
 }
 
 static bool has_edges(const gl_compositor *c, const rlf_render_input *input)
@@ -363,18 +363,21 @@ static rlf_result draw_backdrop(gl_compositor *c, const rlf_render_input *input)
 {
     rlf_result result = RLF_OK;
     const rlf_rig *rig = &c->def.rig;
-    bool has_color = input->frame->color.data != NULL;
+    const bool has_color = input->frame->color.data != NULL;
+    const bool is_grey = !has_color && input->view != RLF_VIEW_BODIES;
     const bool is_shadowed = has_bodies(input) && has_shadows(c);
     if (is_shadowed) {
         result = place_casters(c, input->snapshot);
     }
-    if (result == RLF_OK && (!has_color || has_bodies(input))) {
+    if (result == RLF_OK && (is_grey || has_bodies(input))) {
         result = update_real_depth(c, input);
     }
     if (result != RLF_OK) {
         return result;
     }
-    if (has_color) {
+    if (input->view == RLF_VIEW_BODIES) {
+        gl_backdrop_clear(&c->backdrop);
+    } else if (has_color) {
         gl_texture_upload_rgba8(&c->color_texture, &input->frame->color);
         gl_backdrop_draw_color(&c->backdrop, &c->color_texture);
     } else {
@@ -517,20 +520,21 @@ static rlf_result draw(gl_compositor *c, const rlf_render_input *input)
     return result == RLF_OK ? check_errors(&c->context) : result;
 }
 
-/* Alpha of the read-back picture is the matte; the picture itself is opaque. */
-static void split_matte(gl_compositor *c)
+/* Alpha of the read-back picture is the matte; the picture itself is opaque, but over nothing. */
+static void split_matte(gl_compositor *c, bool is_bare)
 {
     size_t count = (size_t)c->image.width * (size_t)c->image.height;
     for (size_t i = 0; i < count; i++) {
         c->matte.data[i] = c->image.data[4 * i + 3];
-        c->image.data[4 * i + 3] = 255;
+        c->image.data[4 * i + 3] = is_bare ? c->matte.data[i] : 255;
     }
 }
 
 static rlf_result render(void *self, const rlf_render_input *input, rlf_render_output *out)
 {
     gl_compositor *c = self;
-    if (input->view != RLF_VIEW_CAMERA && input->view != RLF_VIEW_MESH) {
+    const bool is_bare = input->view == RLF_VIEW_BODIES;
+    if (input->view != RLF_VIEW_CAMERA && input->view != RLF_VIEW_MESH && !is_bare) {
         return rlf_compositor_render(c->soft, input, out);
     }
     if (input->surface->width != c->def.grid.width ||
@@ -549,9 +553,9 @@ static rlf_result render(void *self, const rlf_render_input *input, rlf_render_o
     if (result != RLF_OK) {
         return result;
     }
-    split_matte(c);
+    split_matte(c, is_bare);
     finish_look(&c->finish, input->frame);
-    if (has_bodies(input)) {
+    if (has_bodies(input) && !is_bare) {
         finish_picture(&c->finish, c->def.pool, &c->image, &c->matte);
     }
     if (c->def.enable_overlay) {

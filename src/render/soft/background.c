@@ -1,4 +1,5 @@
-/* What the bodies are put into: the colour picture, resized when it has to be, or grey depth. */
+/* What the bodies are put into: the colour picture, resized when it has to be, grey depth, or
+ * nothing. */
 #include "render/soft/passes.h"
 
 #include "render/soft/draw.h"
@@ -87,7 +88,9 @@ void soft_set_background(soft *s, const rlf_image_rgba8 *color)
 void soft_draw_background(const soft *s, int32_t begin, int32_t end)
 {
     const rlf_image_rgba8 *color = &s->background;
-    if (color->data == NULL) {
+    if (s->is_bare) {
+        memset(rlf_rgba8_row(&s->image, begin), 0, (size_t)(end - begin) * (size_t)s->image.stride);
+    } else if (color->data == NULL) {
         grey_rows(s, begin, end);
     } else if (color->width == s->image.width && color->height == s->image.height) {
         copy_rows(s, begin, end);

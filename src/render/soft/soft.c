@@ -216,6 +216,18 @@ static void place_bodies(soft *s, const rlf_render_input *input)
     render_place_bodies(&s->edges, &s->camera, &T_picture_world, input->snapshot, &casters);
 }
 
+/* Over nothing the picture is as opaque as what was drawn. */
+static void keep_matte(const soft *s)
+{
+    for (int32_t y = 0; y < s->image.height; y++) {
+        const uint8_t *matte = rlf_u8_row(&s->matte, y);
+        uint8_t *alpha = rlf_rgba8_row(&s->image, y) + 3;
+        for (int32_t x = 0; x < s->image.width; x++) {
+            alpha[4 * (ptrdiff_t)x] = matte[x];
+        }
+    }
+}
+
 static void draw_background_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
@@ -233,7 +245,7 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
     if (has_edges) {
         place_bodies(s, input);
     }
-    if (input->frame->color.data == NULL || has_bodies) {
+    if (has_bodies || (input->frame->color.data == NULL && !s->is_bare)) {
         const real_windows needed = soft_needed_depth(s, input);
         const observation now = render_observation(input);
         real_depth_read(&s->real, &now);
@@ -253,9 +265,13 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
     }
     if (has_bodies) {
         soft_draw_bodies(s, true);
-        finish_picture(s->finish, s->def.pool, &s->image, &s->matte);
     } else {
         rlf_parallel_for(s->def.pool, s->image.height, SOFT_BAND_ROWS, draw_background_rows, s);
+    }
+    if (s->is_bare) {
+        keep_matte(s); /* and no camera's noise */
+    } else if (has_bodies) {
+        finish_picture(s->finish, s->def.pool, &s->image, &s->matte);
     }
     return RLF_OK;
 }
@@ -298,7 +314,8 @@ static rlf_result render(void *self, const rlf_render_input *input, rlf_render_o
     if (result != RLF_OK) {
         return result;
     }
-    if (input->view == RLF_VIEW_CAMERA) {
+    s->is_bare = input->view == RLF_VIEW_BODIES;
+    if (input->view == RLF_VIEW_CAMERA || s->is_bare) {
         result = draw_camera(s, input);
     } else if (input->view == RLF_VIEW_CONTACTS) {
         result = draw_camera(s, input);

@@ -238,6 +238,7 @@ typedef struct soft {
     float ray_y0, ray_step_y;
 
     rlf_image_rgba8 background; /* borrowed for a picture */
+    bool is_bare;               /* nothing is behind the bodies of this picture */
     int32_t *column_left; /* bilinear resize, per x: left column, weight of the next one (0..256) */
     int32_t *column_weight;
     rlf_image_rgba8 grid_image; /* views are drawn here, then enlarged into the picture */

@@ -204,7 +204,7 @@ static double clearance_of(const grid_job *job)
     return rlf_max(0.0, sqrt(job->scan.nearest2) - beside);
 }
 
-bool grid_collide_prepare(const grid_query *query, const phys_body *body)
+static bool prepare_view(const grid_query *query, const phys_body *body)
 {
     int32_t rect[4], stride;
     double reach = reach_of(query, body, query_period(body, query->step, PERIOD_AT_REST));
@@ -223,6 +223,15 @@ bool grid_collide_prepare(const grid_query *query, const phys_body *body)
     return grid_tiles_make(query->foreground, query->grid, rect);
 }
 
+bool grid_collide_prepare(const grid_query *query, const phys_body *body)
+{
+    bool is_near = false;
+    for (const grid_query *one = query; one != NULL; one = one->next) {
+        is_near = prepare_view(one, body) || is_near;
+    }
+    return is_near;
+}
+
 static void start_contacts(const grid_query *query, phys_body *body)
 {
     body->stance.is_set = false;
@@ -236,17 +245,28 @@ static void start_contacts(const grid_query *query, phys_body *body)
     body->surface_version = 0;
 }
 
-/* Whether nothing of the foreground can come near the body before the next query. */
-static bool is_alone(const grid_job *job, double period)
+/* Whether nothing of the foreground of the cameras from the job's on can come near the body before
+ * the next query. */
+static bool is_alone(grid_job *job, double period)
 {
-    double reach = reach_of(job->query, job->body, (int32_t)period);
-    reach += approach_margin_of(job->query->foreground);
-    return grid_is_free(job, job->query->foreground, reach);
+    const grid_query *query = job->query;
+    bool is_free = true;
+    for (const grid_query *one = query; one != NULL && is_free; one = one->next) {
+        double reach = reach_of(one, job->body, (int32_t)period);
+        if (one != query) {
+            set_up(job, one, job->body);
+        }
+        is_free = grid_is_free(job, one->foreground, reach + approach_margin_of(one->foreground));
+    }
+    if (query->next != NULL) {
+        set_up(job, query, job->body);
+    }
+    return is_free;
 }
 
 /* Whether a search would find what the last one found: what stays is the same, nothing else is
  * near, and the body has hardly moved. All that was within the margin is known. */
-static bool is_settled(const grid_job *job)
+static bool is_settled(grid_job *job)
 {
     const grid_query *query = job->query;
     const phys_body *body = job->body;
@@ -292,27 +312,80 @@ static void drop_far_sides(grid_job *job)
     job->hit_count = kept;
 }
 
-/* Both sheets, the nearer first. */
+/* Both sheets of one camera, the nearer first. */
 static void collide_layers(grid_job *job, grid_shift shift, phys_body *body, int32_t body_index)
 {
     const grid_query *query = job->query;
+    uint8_t *side = body->side[query->grid->camera];
     set_period(job, body, PERIOD_MAX);
-    collide_layer(job, query->foreground, &body->side[0]);
-    body->surface_flow = job->scan.surface_velocity;
-    body->surface_clear = clearance_of(job);
+    collide_layer(job, query->foreground, &side[0]);
+    if (query->grid->camera == 0) {
+        body->surface_flow = job->scan.surface_velocity;
+    }
+    body->surface_clear = rlf_min(body->surface_clear, clearance_of(job));
     grid_reduce(job, body, body_index, RLF_CONTACT_FOREGROUND);
     if (!job->scan.is_near && body->is_pressed) {
         set_period(job, body, PERIOD_AT_REST);
     }
     unseen_hits beyond;
     collide_out_of_view(job, shift, &beyond);
-    collide_layer(job, query->background, &body->side[1]);
+    collide_layer(job, query->background, &side[1]);
     add_out_of_view(job, &beyond);
     grid_unseen_collide(job);
     mapped_collide(job);
     drop_far_sides(job);
     body->surface_clear = rlf_min(body->surface_clear, clearance_of(job));
     grid_reduce(job, body, body_index, RLF_CONTACT_BACKGROUND);
+}
+
+/* What one camera only guesses, a back or what lies beyond its view, is not there where another one
+ * sees past its face or past the body's point in it. And a body whose centre is in the open was not
+ * inside of anything: no face that it is behind of pushes it out. */
+static void drop_seen_free(const grid_query *query, phys_body *body)
+{
+    const rlf_vec3 still = {0, 0, 0};
+    const bool is_in_open = grid_is_seen_free(query, body->x, still);
+    int32_t kept = 0;
+    for (int32_t i = 0; i < body->surface_count; i++) {
+        const phys_contact *c = &body->surface[i];
+        const rlf_vec3 own = rlf_add(body->x, phys_contact_arm(c, body));
+        const bool is_behind = rlf_dot(c->normal, rlf_sub(body->x, c->anchor_b)) < 0.0;
+        if (!(is_in_open && is_behind) &&
+            !grid_is_seen_free(query, c->anchor_b, c->surface_velocity) &&
+            !grid_is_seen_free(query, own, c->surface_velocity)) {
+            body->surface[kept++] = *c;
+        }
+    }
+    body->surface_count = kept;
+}
+
+static void collide_cameras(grid_job *job, phys_body *body, int32_t body_index)
+{
+    const grid_query *first = job->query;
+    int32_t period = INT32_MAX;
+    body->surface_clear = INFINITY;
+    for (const grid_query *one = first; one != NULL; one = one->next) {
+        if (one != first) {
+            set_up(job, one, body);
+        }
+        grid_shift shift = grid_out_of_view(one, job->motion.centre, body->shape.radius);
+        collide_layers(job, shift, body, body_index);
+        period = body->surface_period < period ? body->surface_period : period;
+    }
+    body->surface_period = period;
+    if (first->next != NULL) {
+        drop_seen_free(first, body);
+        set_up(job, first, body);
+    }
+}
+
+static bool are_backgrounds_still(const grid_query *query)
+{
+    bool are_still = true;
+    for (const grid_query *one = query; one != NULL; one = one->next) {
+        are_still = are_still && one->background->sheet->velocity_x == NULL;
+    }
+    return are_still;
 }
 
 void grid_collide(const grid_query *query, phys_body *body, int32_t body_index)
@@ -327,13 +400,12 @@ void grid_collide(const grid_query *query, phys_body *body, int32_t body_index)
         return;
     }
     start_contacts(query, body);
-    grid_shift shift = grid_out_of_view(query, job.motion.centre, body->shape.radius);
     for (int32_t i = 0; i < old_count; i++) {
         old[i] = phys_trace_of(&body->surface[i]);
     }
     job.window.asked_before = swept_from;
-    collide_layers(&job, shift, body, body_index);
-    if (query->background->sheet->velocity_x == NULL && is_alone(&job, body->surface_period)) {
+    collide_cameras(&job, body, body_index);
+    if (are_backgrounds_still(query) && is_alone(&job, body->surface_period)) {
         body->surface_version = query->rest_version;
     }
     if (body->surface_count == 0) {

@@ -20,7 +20,13 @@ typedef struct grid_query {
     const struct rlf_map *map; /* the room as far as it is known, NULL = it is not */
     const room_planes *room;   /* NULL: there is nothing where the camera does not look */
     rlf_vec3 up;               /* unit, against gravity, grid frame; 0 without gravity */
+    const struct grid_query *first, *next; /* other cameras' views of the same moment, in a list;
+                                              NULL: there are none */
 } grid_query;
+
+/* Whether a camera of the list sees past a place in the world where something moves with this
+ * velocity: what is clearly behind it is all that it sees there. */
+bool grid_is_seen_free(const grid_query *query, rlf_vec3 place, rlf_vec3 velocity);
 
 /* Makes the tiles that grid_collide will read for this body. Returns whether any of them has
  * foreground. */

@@ -96,17 +96,19 @@ static void guard_by_map(const grid_query *query, phys_body *body, int32_t body_
     }
 }
 
-void grid_guard_centre(const grid_query *query, phys_body *body, int32_t body_index,
-                       rlf_vec3 before)
+/* True when a sheet of one camera holds the body back. */
+static bool guard_by_sheets(const grid_query *query, phys_body *body, int32_t body_index,
+                            rlf_vec3 before)
 {
     const rlf_grid *grid = query->grid;
     const rlf_pose *T_world_grid = &grid->T_world_grid;
     const rlf_grid_sheet *sheets[2] = {&grid->foreground, &grid->background};
     const rlf_contact_other others[2] = {RLF_CONTACT_FOREGROUND, RLF_CONTACT_BACKGROUND};
+    const rlf_vec3 still = {0, 0, 0};
     rlf_vec3 from = rlf_transform(&query->T_grid_world, before);
     rlf_vec3 to = rlf_transform(&query->T_grid_world, body->x);
-    rlf_vec3 flow = query->is_moving ? body->surface_flow : rlf_vec3_make(0, 0, 0);
-    for (int32_t i = 0; i < 2; i++, flow = rlf_vec3_make(0, 0, 0)) {
+    rlf_vec3 flow = query->is_moving && grid->camera == 0 ? body->surface_flow : still;
+    for (int32_t i = 0; i < 2; i++, flow = still) {
         field_hit hit;
         if (i == 0 && (body->grab != NULL || query->time < body->soft_until)) {
             continue; /* fingers may close on it as far as they like */
@@ -119,7 +121,19 @@ void grid_guard_centre(const grid_query *query, phys_body *body, int32_t body_in
         wall.normal = rlf_rotate(T_world_grid->q, hit.normal);
         wall.velocity = rlf_rotate(T_world_grid->q, flow);
         wall.point = rlf_transform(T_world_grid, rlf_mad(hit.point, flow, query->tau));
-        if (hold_back(query, body, body_index, before, &wall)) {
+        if (!grid_is_seen_free(query, wall.point, wall.velocity) &&
+            hold_back(query, body, body_index, before, &wall)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void grid_guard_centre(const grid_query *query, phys_body *body, int32_t body_index,
+                       rlf_vec3 before)
+{
+    for (const grid_query *one = query; one != NULL; one = one->next) {
+        if (guard_by_sheets(one, body, body_index, before)) {
             return;
         }
     }

@@ -1,0 +1,70 @@
+/* Several cameras of one room. */
+#include "session_cameras.h"
+
+#include <string.h>
+
+rlf_result session_cameras_find(const char *source, session_cameras *out)
+{
+    const size_t length = strlen(source);
+    memset(out, 0, sizeof(*out));
+    if (length > 5 && strcmp(source + length - 5, ".json") == 0 && strchr(source, '?') == NULL) {
+        return rlf_cameras_load(source, out->places, &out->count);
+    }
+    out->count = 1;
+    out->places[0].T_world_camera = rlf_pose_identity();
+    return RLF_OK;
+}
+
+rlf_result session_cameras_open(session_cameras *cameras, rlf_pool *pool)
+{
+    rlf_result result = RLF_OK;
+    for (int32_t k = 1; k < cameras->count && result == RLF_OK; k++) {
+        result = rlf_open_source(cameras->places[k].source, pool, &cameras->sources[k]);
+    }
+    return result;
+}
+
+/* What is seen of a depth picture is the same for all; nothing else of the first one's picture. */
+static rlf_pipeline_def joining(const rlf_pipeline_def *first, rlf_source *source)
+{
+    rlf_pipeline_def def = rlf_pipeline_def_default(first->profile, source, first->pool);
+    const rlf_reconstruct_def own = def.reconstruct;
+    def.reconstruct = first->reconstruct;
+    def.reconstruct.rig = own.rig;
+    def.reconstruct.depth_min_m = own.depth_min_m;
+    def.reconstruct.depth_max_m = own.depth_max_m;
+    def.enable_render = false;
+    def.camera = RLF_CAMERA_FIXED;
+    return def;
+}
+
+rlf_result session_cameras_join(session_cameras *cameras, const rlf_pipeline_def *def,
+                                rlf_pipeline *first)
+{
+    rlf_result result = RLF_OK;
+    for (int32_t k = 1; k < cameras->count && result == RLF_OK; k++) {
+        rlf_pipeline_def other = joining(def, cameras->sources[k]);
+        other.joins = first;
+        other.T_world_camera = cameras->places[k].T_world_camera;
+        result = rlf_pipeline_create(&other, &cameras->pipelines[k]);
+    }
+    if (result != RLF_OK) {
+        session_cameras_leave(cameras);
+    }
+    return result;
+}
+
+void session_cameras_leave(session_cameras *cameras)
+{
+    for (int32_t k = 1; k < cameras->count; k++) {
+        rlf_pipeline_destroy(&cameras->pipelines[k]);
+    }
+}
+
+void session_cameras_close(session_cameras *cameras)
+{
+    session_cameras_leave(cameras);
+    for (int32_t k = 1; k < cameras->count; k++) {
+        rlf_source_destroy(&cameras->sources[k]);
+    }
+}

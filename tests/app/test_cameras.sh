@@ -1,0 +1,70 @@
+#!/bin/sh
+# A list of cameras as a SOURCE: two that see the same are as one, and lists that are wrong are told.
+# usage: test_cameras.sh RELIEF WORK_FOLDER
+set -u
+relief=$1
+work=$2
+rm -rf "$work"
+mkdir -p "$work"
+cd "$work" || exit 1
+failures=0
+
+fail()
+{
+    echo "FAIL: $*"
+    failures=$((failures + 1))
+}
+
+# expect_error TEXT JSON: status 1 or 2, and TEXT on stderr.
+expect_error()
+{
+    printf '%s' "$2" >wrong.json
+    if "$relief" run wrong.json --headless --frames 1 --quiet >stdout.txt 2>stderr.txt; then
+        fail "accepted: $2"
+    fi
+    grep -q -- "$1" stderr.txt || fail "no '$1' for $2: $(cat stderr.txt)"
+}
+
+expect_error 'cameras must be a list of 1 to 8' '{}'
+expect_error 'cameras must be a list of 1 to 8' '{ "cameras": [] }'
+expect_error 'cameras\[0\].source is missing' '{ "cameras": [ {} ] }'
+expect_error 'cameras\[0\].source' '{ "cameras": [ 7 ] }'
+expect_error 'cameras\[1\].pose is no key of a camera' \
+    '{ "cameras": [ { "source": "synthetic:empty" }, { "source": "synthetic:empty", "pose": 1 } ] }'
+expect_error 'cameras\[0\].orientation is 0' \
+    '{ "cameras": [ { "source": "synthetic:empty", "orientation": [0, 0, 0, 0] } ] }'
+expect_error 'cameras\[0\].position' '{ "cameras": [ { "source": "synthetic:empty", "position": [0, 0] } ] }'
+expect_error 'nowhere' '{ "cameras": [ { "source": "synthetic:empty" }, { "source": "nowhere" } ] }'
+expect_error 'is no key of a list of cameras' '{ "camera": [] }'
+expect_error 'calibration.*must be alone' \
+    '{ "cameras": [ { "source": "synthetic:empty", "calibration": "a.json", "position": [0, 0, 0] } ] }'
+expect_error 'no.json' '{ "cameras": [ { "source": "synthetic:empty", "calibration": "no.json" } ] }'
+"$relief" run none.json --headless --quiet >stdout.txt 2>stderr.txt && fail "none.json was accepted"
+grep -q 'none.json' stderr.txt || fail "none.json: $(cat stderr.txt)"
+
+# ---- two that see the same are as one ----------------------------------------------------------------
+one='{ "source": "synthetic:empty?color=96x54&noise=0&frames=45" }'
+shorter='{ "source": "synthetic:empty?color=96x54&noise=0&frames=30" }'
+echo "{ \"cameras\": [ $one ] }" >one.json
+echo "{ \"cameras\": [ $one, $one ] }" >two.json
+echo "{ \"cameras\": [ $one, $shorter ] }" >ends.json
+lens='"width": 512, "height": 424, "fx": 365, "fy": 365, "cx": 256, "cy": 212'
+same='"rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "translation": [0, 0, 0]'
+echo "{ \"depth\": { $lens, \"units_per_metre\": 1000 }, \"color\": { $lens }, \"depth_to_color\": { $same } }" >pair.json
+echo "{ \"cameras\": [ $one, ${one% \}}, \"calibration\": \"pair.json\" } ] }" >pairs.json
+for list in one two pairs ends; do
+    "$relief" run $list.json --scene stack --headless --log $list >stdout.txt 2>stderr.txt ||
+        fail "$list.json: $(cat stderr.txt)"
+done
+grep -q 'camera 2, .*no more frames: the others go on' stderr.txt || fail "an end that is not told: $(cat stderr.txt)"
+last() { awk -F, '$1 == 44 { y += $5; n++ } END { if (n) printf "%.4f", y / n }' "$1/bodies.csv"; }
+for list in two pairs ends; do
+    awk "BEGIN { d = $(last one) - $(last $list); exit !(d * d < 1e-6) }" ||
+        fail "bodies' mean height: $(last one) by one camera, $(last $list) by $list.json"
+done
+echo "mean height: $(last one) by one camera, $(last two) by two, $(last ends) by one that ends"
+"$relief" run two.json --camera moving --headless --frames 1 --quiet 2>stderr.txt && fail "cameras of a list moved"
+grep -q 'leave out --camera' stderr.txt || fail "--camera moving: $(cat stderr.txt)"
+
+[ "$failures" -eq 0 ] || exit 1
+echo "passed"
