@@ -54,11 +54,11 @@ typedef struct rlf_grid_region {
 
 /* A real hand, its hidden sides too: what may take hold of bodies. Grid frame. */
 typedef struct rlf_grid_hand {
-    int32_t id;      /* > 0; the same as long as it is the same hand */
-    bool is_sure;    /* false: it is there, but its cones may be wrong */
-    rlf_vec3 palm;   /* its middle, on the seen skin, metres */
-    rlf_vec3 facing; /* unit, out of the palm */
-    rlf_round_cone cones[RLF_GRID_HAND_CONES];
+    int32_t id;                                /* > 0; the same as long as it is the same hand */
+    bool is_sure;                              /* false: it is there, but its cones may be wrong */
+    rlf_vec3 palm;                             /* its middle, on the seen skin, metres */
+    rlf_vec3 facing;                           /* unit, out of the palm */
+    rlf_round_cone cones[RLF_GRID_HAND_CONES]; /* in the order above */
 } rlf_grid_hand;
 
 /* Projects a point of the grid frame to grid pixel coordinates, (0, 0) being the centre of the
