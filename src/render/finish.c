@@ -308,11 +308,11 @@ RLF_KERNEL static void add_noise(const grain *g, const float (*tile)[3], int32_t
 {
     for (int32_t i = 0; i < count; i++) {
         uint8_t *p = pixels + 4 * i;
-        const int32_t bin = (p[0] + p[1] + p[2]) / (3 * 256 / GRAIN_BINS);
+        const float *sigma = g->at[(p[0] + p[1] + p[2]) / 3];
         const float *noise = tile[(column + i) & (GRAIN_TILE - 1)];
         const float share = (float)shown[i] * (1.0f / 255.0f);
         for (int k = 0; k < 3 && shown[i] != 0; k++) {
-            const float code = (float)p[k] + share * g->sigma[bin][k] * noise[k] + 0.5f;
+            const float code = (float)p[k] + share * sigma[k] * noise[k] + 0.5f;
             p[k] = (uint8_t)(int32_t)(code < 0.0f ? 0.0f : (code < 255.0f ? code : 255.0f));
         }
     }

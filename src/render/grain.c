@@ -11,6 +11,7 @@
 #define PER_QUARTILE 3.1383 /* and over the value that a quarter of them are less than */
 #define STEPS_SLACK 1.5     /* for few spots */
 #define OUTLIER 4.0f        /* sigma: something that moved */
+#define MOST_OF_ALL 9.0     /* variance of a brightness over that of all: more is what moves */
 #define RISES 1.07       /* of a variance, at most: motion adds to it, and nothing takes off it */
 #define RISES_LEAST 0.1  /* and so much, in square codes */
 #define MOVES 0.75       /* correlation of neighbours: more than any noise has */
@@ -172,12 +173,13 @@ typedef struct pool {
 } pool;
 
 /* Nothing when too few spots show it, or when neighbours change too much alike: something moves. */
-static void take_brightness(grain *g, int32_t bin, const sums *s, pool *out)
+static void take_brightness(grain *g, int32_t bin, const sums *s, double most, pool *out)
 {
     int32_t count;
     double far[3], beside[2];
     for (int k = 0; k < 3; k++) {
         far[k] = rlf_min(variance_of(s->far[k], &count), most_variance(s->steps[k]));
+        far[k] = rlf_min(far[k], most);
     }
     for (int k = 0; k < 2; k++) {
         beside[k] = variance_of(s->beside[k], &count);
@@ -188,9 +190,9 @@ static void take_brightness(grain *g, int32_t bin, const sums *s, pool *out)
     }
     for (int k = 0; k < 3; k++) {
         float variance = g->sigma[bin][k] * g->sigma[bin][k];
-        const double most = RISES * variance + RISES_LEAST;
-        approach(&variance, g->is_seen[bin] ? rlf_min(far[k], most) : far[k], g->is_seen[bin]);
-        g->sigma[bin][k] = sqrtf(variance);
+        const double risen = RISES * variance + RISES_LEAST;
+        approach(&variance, g->is_seen[bin] ? rlf_min(far[k], risen) : far[k], g->is_seen[bin]);
+        g->sigma[bin][k] = most > 0.0 ? sqrtf(variance) : 0.0f;
     }
     g->is_seen[bin] = true;
     out->far += count * far[1];
@@ -215,13 +217,38 @@ static void spread(grain *g)
     }
 }
 
+/* A pixel of the next code is not suddenly noisier. */
+static void fill_between(grain *g)
+{
+    const float wide = 256.0f / GRAIN_BINS;
+    for (int32_t code = 0; code < 256; code++) {
+        const float bin = ((float)code + 0.5f) / wide - 0.5f;
+        const int32_t below = bin < 0.0f ? 0 : (int32_t)bin;
+        const int32_t above = below + 1 < GRAIN_BINS ? below + 1 : below;
+        const float share = bin < 0.0f ? 0.0f : bin - (float)below;
+        for (int k = 0; k < 3; k++) {
+            g->at[code][k] = g->sigma[below][k] + share * (g->sigma[above][k] - g->sigma[below][k]);
+        }
+    }
+}
+
 static void take_sums(grain *g, const sums s[GRAIN_BINS])
 {
     pool p = {0};
+    int32_t all[CHANGES] = {0};
+    int32_t count;
+    for (int32_t i = 0; i < GRAIN_BINS * CHANGES; i++) {
+        all[i % CHANGES] += s[i / CHANGES].far[1][i % CHANGES];
+    }
+    double most = MOST_OF_ALL * variance_of(all, &count);
+    if (2 * all[0] > count) {
+        most = 0.0; /* half of the picture does not change by a code: what does moves */
+    }
     for (int32_t bin = 0; bin < GRAIN_BINS; bin++) {
-        take_brightness(g, bin, &s[bin], &p);
+        take_brightness(g, bin, &s[bin], most, &p);
     }
     spread(g);
+    fill_between(g);
     if (p.far > 0.0 && p.red > 0.0 && p.green > 0.0) {
         approach(&g->beside[0], 1.0 - p.beside[0] / p.far, g->is_known);
         approach(&g->beside[1], 1.0 - p.beside[1] / p.far, g->is_known);

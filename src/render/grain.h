@@ -24,7 +24,8 @@ typedef struct grain_spot {
 } grain_spot;
 
 typedef struct grain {
-    float sigma[GRAIN_BINS][3]; /* codes 0..255 */
+    float sigma[GRAIN_BINS][3]; /* codes 0..255, as measured; */
+    float at[256][3];           /* of each brightness: linear between the middles of those */
     float beside[2];            /* correlation with the next pixel in the row, in the column */
     float common;               /* and of the channels */
     bool is_seen[GRAIN_BINS], is_known;
