@@ -11,7 +11,6 @@
 #define PER_QUARTILE 3.1383 /* and over the value that a quarter of them are less than */
 #define STEPS_SLACK 1.5     /* for few spots */
 #define OUTLIER 4.0f        /* sigma: something that moved */
-#define MOST_OF_ALL 9.0     /* variance of a brightness over that of all: more is what moves */
 #define RISES 1.07       /* of a variance, at most: motion adds to it, and nothing takes off it */
 #define RISES_LEAST 0.1  /* and so much, in square codes */
 #define MOVES 0.75       /* correlation of neighbours: more than any noise has */
@@ -172,35 +171,45 @@ typedef struct pool {
     double far, beside[2], red, green, red_and_green;
 } pool;
 
-/* Nothing when too few spots show it, or when neighbours change too much alike: something moves. */
-static void take_brightness(grain *g, int32_t bin, const sums *s, double most, pool *out)
+/* One step towards what a picture says of a brightness; where something moves that is no more than
+ * what flat places show. */
+static void learn(float *sigma, double now, const int32_t steps[CHANGES], bool is_seen)
+{
+    float variance = *sigma * *sigma;
+    const double risen = is_seen ? RISES * variance + RISES_LEAST : now;
+    approach(&variance, rlf_min(rlf_min(now, risen), most_variance(steps)), is_seen);
+    *sigma = sqrtf(variance);
+}
+
+/* Nothing when too few spots show it. When neighbours change too much alike, something moves. */
+static void take_brightness(grain *g, int32_t bin, const sums *s, pool *out)
 {
     int32_t count;
     double far[3], beside[2];
     for (int k = 0; k < 3; k++) {
-        far[k] = rlf_min(variance_of(s->far[k], &count), most_variance(s->steps[k]));
-        far[k] = rlf_min(far[k], most);
+        far[k] = variance_of(s->far[k], &count);
     }
     for (int k = 0; k < 2; k++) {
         beside[k] = variance_of(s->beside[k], &count);
     }
     const double least = (1.0 - MOVES) * far[1];
-    if (count < LEAST_SPOTS || beside[0] < least || beside[1] < least) {
+    const bool moves = beside[0] < least || beside[1] < least;
+    if (count < LEAST_SPOTS || (moves && !g->is_seen[bin])) {
         return;
     }
     for (int k = 0; k < 3; k++) {
-        float variance = g->sigma[bin][k] * g->sigma[bin][k];
-        const double risen = RISES * variance + RISES_LEAST;
-        approach(&variance, g->is_seen[bin] ? rlf_min(far[k], risen) : far[k], g->is_seen[bin]);
-        g->sigma[bin][k] = most > 0.0 ? sqrtf(variance) : 0.0f;
+        float *sigma = &g->sigma[bin][k];
+        learn(sigma, moves ? *sigma * *sigma : far[k], s->steps[k], g->is_seen[bin]);
     }
     g->is_seen[bin] = true;
-    out->far += count * far[1];
-    out->beside[0] += count * beside[0];
-    out->beside[1] += count * beside[1];
-    out->red += s->red;
-    out->green += s->green;
-    out->red_and_green += s->red_and_green;
+    if (!moves) {
+        out->far += count * far[1];
+        out->beside[0] += count * beside[0];
+        out->beside[1] += count * beside[1];
+        out->red += s->red;
+        out->green += s->green;
+        out->red_and_green += s->red_and_green;
+    }
 }
 
 /* A brightness that was not seen yet is as noisy as the next darker one that was, or else as the
@@ -232,20 +241,27 @@ static void fill_between(grain *g)
     }
 }
 
+/* Most flat spots do not change by a code: what changes there moves. */
+static bool is_noiseless(const sums s[GRAIN_BINS])
+{
+    int32_t all = 0;
+    int32_t same = 0;
+    for (int32_t i = 0; i < GRAIN_BINS * CHANGES; i++) {
+        const int32_t count = s[i / CHANGES].far[1][i % CHANGES];
+        all += count;
+        same += i % CHANGES == 0 ? count : 0;
+    }
+    return 2 * same > all;
+}
+
 static void take_sums(grain *g, const sums s[GRAIN_BINS])
 {
     pool p = {0};
-    int32_t all[CHANGES] = {0};
-    int32_t count;
-    for (int32_t i = 0; i < GRAIN_BINS * CHANGES; i++) {
-        all[i % CHANGES] += s[i / CHANGES].far[1][i % CHANGES];
-    }
-    double most = MOST_OF_ALL * variance_of(all, &count);
-    if (2 * all[0] > count) {
-        most = 0.0; /* half of the picture does not change by a code: what does moves */
+    if (is_noiseless(s)) {
+        return;
     }
     for (int32_t bin = 0; bin < GRAIN_BINS; bin++) {
-        take_brightness(g, bin, &s[bin], most, &p);
+        take_brightness(g, bin, &s[bin], &p);
     }
     spread(g);
     fill_between(g);
