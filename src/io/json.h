@@ -3,6 +3,7 @@
 #define RLF_IO_JSON_H
 
 #include "io/file.h"
+#include "relief/math.h"
 
 #include <float.h>
 #include <jansson.h>
@@ -41,6 +42,10 @@ rlf_result io_json_get_integer(const io_json_object *object, const io_json_field
 /* Array of exactly `count` numbers. */
 rlf_result io_json_get_numbers(const io_json_object *object, const io_json_field *field,
                                double *out, size_t count);
+rlf_result io_json_get_vec3(const io_json_object *object, const io_json_field *field,
+                            rlf_vec3 *out);
+/* A key "orientation": a quaternion x, y, z, w of about unit length. */
+rlf_result io_json_get_orientation(const io_json_object *object, rlf_quat *out);
 rlf_result io_json_get_bool(const io_json_object *object, const io_json_field *field, bool *out);
 /* The string stays the document's. */
 rlf_result io_json_get_text(const io_json_object *object, const io_json_field *field,

@@ -31,7 +31,7 @@ expect_error 'cameras\[0\].source is missing' '{ "cameras": [ {} ] }'
 expect_error 'cameras\[0\].source' '{ "cameras": [ 7 ] }'
 expect_error 'cameras\[1\].pose is no key of a camera' \
     '{ "cameras": [ { "source": "synthetic:empty" }, { "source": "synthetic:empty", "pose": 1 } ] }'
-expect_error 'cameras\[0\].orientation is 0' \
+expect_error 'cameras\[0\].orientation has the length 0' \
     '{ "cameras": [ { "source": "synthetic:empty", "orientation": [0, 0, 0, 0] } ] }'
 expect_error 'cameras\[0\].position' '{ "cameras": [ { "source": "synthetic:empty", "position": [0, 0] } ] }'
 expect_error 'nowhere' '{ "cameras": [ { "source": "synthetic:empty" }, { "source": "nowhere" } ] }'

@@ -13,10 +13,10 @@ static rlf_result read_motion(const io_json_object *body, rlf_body_def *def)
                                            FINITE_MAX, false};
     static const io_json_field spin = {"angular_velocity", "three numbers of rad/s", -FINITE_MAX,
                                        FINITE_MAX, false};
-    rlf_result result = io_scene_read_vec3(body, &position, &def->position);
-    result = result == RLF_OK ? io_scene_read_orientation(body, &def->orientation) : result;
-    result = result == RLF_OK ? io_scene_read_vec3(body, &velocity, &def->velocity) : result;
-    result = result == RLF_OK ? io_scene_read_vec3(body, &spin, &def->angular_velocity) : result;
+    rlf_result result = io_json_get_vec3(body, &position, &def->position);
+    result = result == RLF_OK ? io_json_get_orientation(body, &def->orientation) : result;
+    result = result == RLF_OK ? io_json_get_vec3(body, &velocity, &def->velocity) : result;
+    result = result == RLF_OK ? io_json_get_vec3(body, &spin, &def->angular_velocity) : result;
     return result;
 }
 

@@ -12,7 +12,7 @@ static rlf_result read_model_point(const io_json_object *point, const rlf_shape 
                                           -POSITION_MAX_M, POSITION_MAX_M, true};
     const json_t *value = json_object_get(point->value, "model");
     if (!json_is_string(value)) {
-        return io_scene_read_vec3(point, &numbers, out);
+        return io_json_get_vec3(point, &numbers, out);
     }
     if (!rlf_known_name_point(shape, json_string_value(value), out)) {
         return io_json_fail(point, "model",
@@ -48,7 +48,7 @@ static rlf_result read_point(const io_json_object *point, const rlf_shape *shape
         return result;
     }
     return out->has_pixel ? io_json_get_numbers(point, &pixel, out->pixel, 2)
-                          : io_scene_read_vec3(point, &world, &out->world);
+                          : io_json_get_vec3(point, &world, &out->world);
 }
 
 static rlf_result read_points(const io_json_object *object, rlf_known_def *def)
@@ -90,8 +90,8 @@ static rlf_result read_place(const io_json_object *object, rlf_known_def *def)
     if (!def->has_pose && json_object_get(object->value, "orientation") != NULL) {
         return io_json_fail(object, "orientation", "needs a \"position\"");
     }
-    rlf_result result = io_scene_read_vec3(object, &position, &def->T_world_model.p);
-    result = result == RLF_OK ? io_scene_read_orientation(object, &def->T_world_model.q) : result;
+    rlf_result result = io_json_get_vec3(object, &position, &def->T_world_model.p);
+    result = result == RLF_OK ? io_json_get_orientation(object, &def->T_world_model.q) : result;
     return result == RLF_OK ? read_points(object, def) : result;
 }
 

@@ -4,15 +4,6 @@
 
 #include <string.h>
 
-rlf_result io_scene_read_vec3(const io_json_object *object, const io_json_field *field,
-                              rlf_vec3 *out)
-{
-    double v[3] = {out->x, out->y, out->z};
-    rlf_result result = io_json_get_numbers(object, field, v, 3);
-    *out = rlf_vec3_make(v[0], v[1], v[2]);
-    return result;
-}
-
 static bool is_control(char c)
 {
     return (unsigned char)c < 0x20 || c == 0x7f;
@@ -42,24 +33,5 @@ rlf_result io_scene_read_name(const io_json_object *body, char out[RLF_NAME_MAX]
                             name);
     }
     memcpy(out, name, length + 1);
-    return RLF_OK;
-}
-
-rlf_result io_scene_read_orientation(const io_json_object *body, rlf_quat *out)
-{
-    static const io_json_field field = {
-        "orientation", "a quaternion [x, y, z, w] of about unit length", -1e3, 1e3, false};
-    double q[4] = {out->x, out->y, out->z, out->w};
-    rlf_result result = io_json_get_numbers(body, &field, q, 4);
-    if (result != RLF_OK) {
-        return result;
-    }
-    double norm = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    if (!(norm > 0.9 && norm < 1.1)) {
-        return io_json_fail(body, "orientation", "has the length %g: it must be %s", norm,
-                            field.meaning);
-    }
-    rlf_quat quaternion = {q[0], q[1], q[2], q[3]};
-    *out = rlf_quat_normalize(quaternion);
     return RLF_OK;
 }

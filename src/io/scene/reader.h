@@ -17,9 +17,6 @@ rlf_result io_scene_parse(const io_bytes *file, const char *folder, rlf_scene *o
 /* Parts of a scene that bodies and known objects share. Absent keys that are not required leave
  * *out as it is; the shape must be a def's default. */
 rlf_result io_scene_read_name(const io_json_object *object, char out[RLF_NAME_MAX]);
-rlf_result io_scene_read_vec3(const io_json_object *object, const io_json_field *field,
-                              rlf_vec3 *out);
-rlf_result io_scene_read_orientation(const io_json_object *object, rlf_quat *out);
 
 /* A scene while it is read; models are kept in it. */
 typedef struct io_scene_reader {

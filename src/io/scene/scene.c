@@ -76,7 +76,7 @@ static rlf_result read_gravity(const io_json_object *top, rlf_scene *scene)
     scene->gravity = rlf_world_def_default().gravity;
     scene->is_gravity_given = value != NULL;
     scene->finds_gravity = json_is_string(value) && strcmp(json_string_value(value), "floor") == 0;
-    return scene->finds_gravity ? RLF_OK : io_scene_read_vec3(top, &field, &scene->gravity);
+    return scene->finds_gravity ? RLF_OK : io_json_get_vec3(top, &field, &scene->gravity);
 }
 
 static rlf_result read_all_bodies(const io_json_object *top, const char *folder, rlf_scene *scene)

@@ -76,7 +76,7 @@ rlf_result io_scene_read_shape(const io_json_object *body, const io_scene_reader
     out->type = shape->type;
     rlf_vec3 extents = shape->type == RLF_SHAPE_HULL ? rlf_vec3_make(0, 0, 0) : out->size;
     if (shape->has_size) {
-        result = io_scene_read_vec3(body, &size, &extents);
+        result = io_json_get_vec3(body, &size, &extents);
     }
     if (result == RLF_OK && shape->has_radius) {
         result = io_json_get_number(body, &radius, &out->radius);

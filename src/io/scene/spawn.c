@@ -93,7 +93,7 @@ static rlf_result read_box(const io_json_object *entry, io_pattern *out)
 {
     static const io_json_field box = {
         "box", "three full extents in metres, each >= 0 and at most 1000", 0, 1000, true};
-    rlf_result result = io_scene_read_vec3(entry, &box, &out->box);
+    rlf_result result = io_json_get_vec3(entry, &box, &out->box);
     double longest = rlf_max(rlf_max(out->box.x, out->box.y), out->box.z);
     if (result == RLF_OK && out->count > 1 && !(longest > 1e-6)) {
         return io_json_fail(entry, "box", "is a point: %d bodies need room", (int)out->count);
@@ -113,7 +113,7 @@ static rlf_result read_extent(const io_json_object *entry, io_pattern *out)
     static const io_json_field radius = {"radius", "a number of metres, > 0 and at most 1000",
                                          IO_POSITIVE, 1000, true};
     switch (out->kind) {
-    case IO_PATTERN_GRID: return io_scene_read_vec3(entry, &three, &out->spacing);
+    case IO_PATTERN_GRID: return io_json_get_vec3(entry, &three, &out->spacing);
     case IO_PATTERN_STACK: return io_json_get_number(entry, &one, &out->spacing.y);
     case IO_PATTERN_RING: return io_json_get_number(entry, &radius, &out->radius);
     case IO_PATTERN_RANDOM: break;
@@ -180,8 +180,8 @@ static rlf_result read_variety(const io_json_object *entry, spawn *out)
     static const io_json_field interval = {"interval", "a number of seconds, >= 0 and at most 1e6",
                                            0, 1e6, false};
     static const io_json_field turned = {"turned", "true or false", 0, 0, false};
-    rlf_result result = io_scene_read_vec3(entry, &velocity, &out->velocity_spread);
-    result = result == RLF_OK ? io_scene_read_vec3(entry, &spin, &out->spin_spread) : result;
+    rlf_result result = io_json_get_vec3(entry, &velocity, &out->velocity_spread);
+    result = result == RLF_OK ? io_json_get_vec3(entry, &spin, &out->spin_spread) : result;
     result = result == RLF_OK ? io_json_get_number(entry, &interval, &out->interval) : result;
     result = result == RLF_OK ? io_json_get_bool(entry, &turned, &out->is_turned) : result;
     return result == RLF_OK ? read_colors(entry, out) : result;

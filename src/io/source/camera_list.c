@@ -25,23 +25,9 @@ static rlf_result read_pose(const io_json_object *object, rlf_pose *out)
     static const io_json_field position_field = {
         "position", "three numbers: metres to the right, down and ahead, in the world", -1e3, 1e3,
         false};
-    static const io_json_field orientation_field = {
-        "orientation", "the four numbers x, y, z, w of a quaternion, not all 0", -1.0, 1.0, false};
-    double p[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1};
-    rlf_result result = io_json_get_numbers(object, &position_field, p, 3);
-    if (result == RLF_OK) {
-        result = io_json_get_numbers(object, &orientation_field, q, 4);
-    }
-    if (result != RLF_OK) {
-        return result;
-    }
-    if (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] < 1e-6) {
-        return io_json_fail(object, "orientation", "is 0: it must be %s",
-                            orientation_field.meaning);
-    }
-    out->p = rlf_vec3_make(p[0], p[1], p[2]);
-    out->q = rlf_quat_normalize((rlf_quat){q[0], q[1], q[2], q[3]});
-    return RLF_OK;
+    *out = rlf_pose_identity();
+    rlf_result result = io_json_get_vec3(object, &position_field, &out->p);
+    return result == RLF_OK ? io_json_get_orientation(object, &out->q) : result;
 }
 
 /* A calibration of the first camera, left, and this one, right, says p_right = T p_left. */
