@@ -184,7 +184,7 @@ static rlf_result open_sources(const session_options *options, session *s)
                         options->source);
     }
     result = rlf_open_source(first[0] != '\0' ? first : options->source, s->pool, &s->source);
-    return result == RLF_OK ? session_cameras_open(&s->cameras, s->pool) : result;
+    return result == RLF_OK ? session_cameras_open(&s->cameras, options, s->pool) : result;
 }
 
 static rlf_result open_all(const session_options *options, session *s)

@@ -15,11 +15,16 @@ rlf_result session_cameras_find(const char *source, session_cameras *out)
     return RLF_OK;
 }
 
-rlf_result session_cameras_open(session_cameras *cameras, rlf_pool *pool)
+rlf_result session_cameras_open(session_cameras *cameras, const session_options *options,
+                                rlf_pool *pool)
 {
     rlf_result result = RLF_OK;
     for (int32_t k = 1; k < cameras->count && result == RLF_OK; k++) {
+        rlf_playback *playback;
         result = rlf_open_source(cameras->places[k].source, pool, &cameras->sources[k]);
+        if (result == RLF_OK && options->is_played) {
+            result = rlf_playback_wrap(&cameras->sources[k], options->end, &playback);
+        }
     }
     return result;
 }

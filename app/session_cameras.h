@@ -6,8 +6,9 @@
 
 /* Where `source` names: itself, or the cameras of a list, FILE.json. */
 rlf_result session_cameras_find(const char *source, session_cameras *out);
-/* Opens all sources but the first. */
-rlf_result session_cameras_open(session_cameras *cameras, rlf_pool *pool);
+/* Opens all sources but the first, which play as it does. */
+rlf_result session_cameras_open(session_cameras *cameras, const session_options *options,
+                                rlf_pool *pool);
 /* Their pipelines, which join `first`; `def` is the first one's. */
 rlf_result session_cameras_join(session_cameras *cameras, const rlf_pipeline_def *def,
                                 rlf_pipeline *first);

@@ -173,8 +173,8 @@ typedef struct rlf_placed_camera {
     rlf_pose T_world_camera; /* depth camera in the world of them all */
 } rlf_placed_camera;
 
-/* Reads a file that lists cameras (docs/several-cameras.md): 1 to RLF_WORLD_CAMERAS_MAX of them, for
- * which `out` has room, and *out_count. Sources that are files lie beside the list. */
+/* Reads a file that lists cameras (docs/several-cameras.md): 1 to RLF_WORLD_CAMERAS_MAX of them,
+ * for which `out` has room, and *out_count. Sources that are files lie beside the list. */
 RLF_API rlf_result rlf_cameras_load(const char *path, rlf_placed_camera *out, int32_t *out_count);
 
 /* ---- scenes

@@ -248,13 +248,38 @@ static rlf_result make_surface(rlf_pipeline *p)
     return result;
 }
 
-/* A frame of a camera that joined, if it has one. One that ended, or fails, shows nothing more. */
-static void see_other(rlf_pipeline *p)
+static double silence_of(const rlf_pipeline *p)
 {
+    return rlf_source_get_status(p->def.source).silence_s;
+}
+
+/* Whether a camera that joined has a frame that is nearer to the first one's than the last it gave.
+ * Of a live one the newest counts, and a silent one is asked now and then: it makes others wait.
+ * Recordings are paired from the first frames on. */
+static bool is_behind(const rlf_pipeline *p, double elapsed_s)
+{
+    const rlf_source_info *info = rlf_source_get_info(p->def.source);
+    if (info->is_live) {
+        return silence_of(p) <= STALE_S || elapsed_s > p->asked_s + STALE_S;
+    }
+    const double rate = info->frames_per_second > 0.0 ? info->frames_per_second : 30.0;
+    const double own_s = (double)(p->last.frame.time_ns - p->first_time_ns) * 1e-9;
+    return p->frame_index == 0 || own_s + 0.5 / rate < elapsed_s;
+}
+
+/* A frame of a camera that joined, if it has one. One that ended, or fails, shows nothing more. */
+static void see_other(rlf_pipeline *p, double elapsed_s)
+{
+    rlf_result result = RLF_NO_FRAME;
     rlf_frame frame;
-    rlf_result result = rlf_source_next(p->def.source, &frame);
-    if (result == RLF_OK) {
+    bool is_due = is_behind(p, elapsed_s);
+    p->asked_s = is_due ? elapsed_s : p->asked_s;
+    while (is_due && (result = rlf_source_next(p->def.source, &frame)) == RLF_OK) {
         p->last.frame = frame;
+        is_due = p->frame_index > 0 && !rlf_source_get_info(p->def.source)->is_live &&
+                 is_behind(p, elapsed_s);
+    }
+    if (result == RLF_OK) {
         result = make_surface(p);
     }
     if (result == RLF_OK) {
@@ -267,14 +292,19 @@ static void see_other(rlf_pipeline *p)
                     result == RLF_END ? "it has no more frames" : rlf_error_text());
         }
         p->has_grid = false;
+    } else {
+        p->has_grid = p->has_grid && silence_of(p) <= STALE_S;
     }
 }
 
 static void see_others(rlf_pipeline *p)
 {
+    const bool is_first = p->frame_index == 0;
+    const double elapsed_s =
+        is_first ? 0.0 : (double)(p->last.frame.time_ns - p->first_time_ns) * 1e-9;
     for (int32_t k = 1; k < RLF_WORLD_CAMERAS_MAX; k++) {
         if (p->others[k] != NULL && p->others[k]->pushed.source == NULL) {
-            see_other(p->others[k]);
+            see_other(p->others[k], elapsed_s);
         }
     }
 }
@@ -346,7 +376,7 @@ rlf_result rlf_pipeline_redraw(rlf_pipeline *p, rlf_pipeline_output *out)
         return RLF_NO_FRAME;
     }
     p->last.snapshot = rlf_world_get_snapshot(p->world);
-    p->last.is_stale = rlf_source_get_status(p->def.source).silence_s > STALE_S;
+    p->last.is_stale = silence_of(p) > STALE_S;
     rlf_result result = pipeline_draw(p);
     *out = p->last;
     return result;
@@ -360,6 +390,11 @@ rlf_result rlf_pipeline_restart(rlf_pipeline *p)
     rlf_result result = rlf_source_restart(p->def.source);
     if (result != RLF_OK) {
         return result;
+    }
+    for (int32_t k = 1; k < RLF_WORLD_CAMERAS_MAX; k++) {
+        if (p->others[k] != NULL && p->others[k]->pushed.source == NULL) {
+            (void)rlf_pipeline_restart(p->others[k]); /* a camera goes on */
+        }
     }
     rlf_reconstruct_reset(p->reconstruct);
     p->has_grid = false;

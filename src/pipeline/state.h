@@ -64,7 +64,8 @@ struct rlf_pipeline {
                                                                     [0] is not used */
     rlf_grid grid; /* of its newest surface; of one that joined while has_grid */
     bool has_grid;
-    int32_t index; /* of its camera in the world */
+    double asked_s; /* when it was asked for a frame last, in the first one's time */
+    int32_t index;  /* of its camera in the world */
     known_models known;
     rlf_compositor *compositor;
     rlf_compositor_def compositor_def;

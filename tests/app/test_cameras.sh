@@ -66,5 +66,12 @@ echo "mean height: $(last one) by one camera, $(last two) by two, $(last ends) b
 "$relief" run two.json --camera moving --headless --frames 1 --quiet 2>stderr.txt && fail "cameras of a list moved"
 grep -q 'leave out --camera' stderr.txt || fail "--camera moving: $(cat stderr.txt)"
 
+# ---- one that is unplugged for a while ----------------------------------------------------------------
+first='"source": "simulated:?of=synthetic:empty"'
+second='"source": "simulated:?of=synthetic:empty&unplug_after=0.5&replug_after=0.5"'
+echo "{ \"cameras\": [ { $first }, { $second } ] }" >unplugged.json
+"$relief" run unplugged.json --headless --frames 60 >stdout.txt 2>stderr.txt || fail "unplugged: $(cat stderr.txt)"
+grep -q '^60 frames' stdout.txt || fail "the others waited: $(cat stdout.txt)"
+
 [ "$failures" -eq 0 ] || exit 1
 echo "passed"

@@ -27,6 +27,31 @@ static inline GLFWwindow *window(void)
     return glfwGetCurrentContext();
 }
 
+/* A hidden window of 200 x 200 pixels whose context is current. */
+static inline GLFWwindow *open_hidden(void)
+{
+    assert_true(glfwInit());
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    GLFWwindow *hidden = glfwCreateWindow(200, 200, "hidden", NULL, NULL);
+    assert_non_null(hidden);
+    glfwMakeContextCurrent(hidden);
+    return hidden;
+}
+
+/* The window's monitor is unplugged, as GLFW tells it when it has left full screen by itself.
+ * Returns whether the window was in full screen. */
+static inline bool unplug_monitor(void)
+{
+    GLFWmonitor *monitor = glfwGetWindowMonitor(window());
+    GLFWmonitorfun on_monitor = glfwSetMonitorCallback(NULL);
+    glfwSetMonitorCallback(on_monitor);
+    on_monitor(monitor, GLFW_DISCONNECTED);
+    return monitor != NULL;
+}
+
 /* Presses a key as GLFW would report it. */
 static inline void press(int key)
 {

@@ -147,14 +147,7 @@ static void test_presenter(void **state)
     if (!has_display()) {
         skip();
     }
-    assert_true(glfwInit());
-    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
-    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    GLFWwindow *hidden = glfwCreateWindow(200, 200, "presenter", NULL, NULL);
-    assert_non_null(hidden);
-    glfwMakeContextCurrent(hidden);
+    GLFWwindow *hidden = open_hidden();
     rlf_gl_presenter *presenter = NULL;
     assert_int_equal(rlf_gl_presenter_create(&presenter), RLF_OK);
     uint8_t data[4 * 8 * 4]; /* left half 250, right half 30 */
@@ -311,13 +304,9 @@ static rlf_result play_unattended(void *context, const rlf_pipeline_output *fram
     unattended *s = context;
     (void)frame;
     s->frames++;
-    if (s->frames == 2) { /* as GLFW tells it, when it has left full screen by itself */
-        GLFWmonitor *monitor = glfwGetWindowMonitor(window());
-        GLFWmonitorfun on_monitor = glfwSetMonitorCallback(NULL);
-        glfwSetMonitorCallback(on_monitor);
-        s->is_full = monitor != NULL;
+    if (s->frames == 2) {
         s->is_pointer_hidden = glfwGetInputMode(window(), GLFW_CURSOR) == GLFW_CURSOR_HIDDEN;
-        on_monitor(monitor, GLFW_DISCONNECTED);
+        s->is_full = unplug_monitor();
         assert_null(glfwGetWindowMonitor(window()));
     } else if (s->frames == 4) {
         s->is_full_again = glfwGetWindowMonitor(window()) != NULL;

@@ -294,12 +294,8 @@ static rlf_result play_screens(void *context, const rlf_pipeline_output *frame)
     (void)frame;
     screens *s = context;
     s->frames++;
-    if (s->frames == 3) { /* as GLFW tells it, when it has left full screen by itself */
-        GLFWmonitor *monitor = glfwGetWindowMonitor(window());
-        GLFWmonitorfun on_monitor = glfwSetMonitorCallback(NULL);
-        glfwSetMonitorCallback(on_monitor);
-        s->was_full = monitor != NULL;
-        on_monitor(monitor, GLFW_DISCONNECTED);
+    if (s->frames == 3) {
+        s->was_full = unplug_monitor();
     } else if (s->frames == 5) {
         s->is_full_after = glfwGetWindowMonitor(window()) != NULL;
     }

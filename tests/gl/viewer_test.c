@@ -404,14 +404,7 @@ static void test_presenter(void **state)
     if (!has_display()) {
         skip();
     }
-    assert_true(glfwInit());
-    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
-    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    GLFWwindow *hidden = glfwCreateWindow(200, 200, "presenter", NULL, NULL);
-    assert_non_null(hidden);
-    glfwMakeContextCurrent(hidden);
+    GLFWwindow *hidden = open_hidden();
     rlf_gl_presenter *presenter = NULL;
     assert_int_equal(rlf_gl_presenter_create(&presenter), RLF_OK);
     uint8_t data[4 * 8 * 4];

@@ -1,6 +1,7 @@
 /* Two pipelines of one world: cameras that face each other across a room with a board between
  * them. Bodies meet what either sees, and each picture hides what its own camera cannot see. */
 #include "relief/pipeline.h"
+#include "relief/synthetic.h"
 #include "test.h"
 
 #include <math.h>
@@ -159,6 +160,52 @@ static void a_ball_meets_the_back_that_is_seen(void **state)
     close_eyes(&eyes[0], &eyes[1]);
 }
 
+/* Frames that a recording of so many frames a second gives beside one of 30, for a second; and
+ * after a restart. */
+static uint64_t frames_beside(double rate, uint64_t *out_again)
+{
+    rlf_source *sources[2] = {NULL, NULL};
+    rlf_pipeline *pipelines[2] = {NULL, NULL};
+    for (int32_t k = 0; k < 2; k++) {
+        rlf_synthetic_def room = rlf_synthetic_def_default();
+        room.scene = RLF_SYNTHETIC_EMPTY;
+        room.enable_color = room.enable_truth = false;
+        room.frames_per_second = k == 0 ? 30.0 : rate;
+        assert_int_equal(rlf_synthetic_create(&room, &sources[k]), RLF_OK);
+        rlf_pipeline_def def = rlf_pipeline_def_default(RLF_PROFILE_LIVE, sources[k], NULL);
+        def.enable_render = false;
+        def.world.camera_capacity = 2;
+        def.joins = pipelines[0];
+        assert_int_equal(rlf_pipeline_create(&def, &pipelines[k]), RLF_OK);
+    }
+    rlf_pipeline_output out;
+    for (int32_t k = 0; k < 31; k++) {
+        assert_int_equal(rlf_pipeline_step(pipelines[0], &out), RLF_OK);
+    }
+    const uint64_t given = rlf_source_get_status(sources[1]).given;
+    assert_int_equal(rlf_pipeline_restart(pipelines[0]), RLF_OK);
+    assert_int_equal(rlf_pipeline_step(pipelines[0], &out), RLF_OK);
+    *out_again = rlf_source_get_status(sources[1]).given - given;
+    for (int32_t k = 1; k >= 0; k--) {
+        rlf_pipeline_destroy(&pipelines[k]);
+        rlf_source_destroy(&sources[k]);
+    }
+    return given;
+}
+
+static void recordings_keep_together(void **state)
+{
+    (void)state;
+    static const double rates[3] = {10.0, 30.0, 60.0};
+    for (int k = 0; k < 3; k++) {
+        uint64_t again;
+        const uint64_t given = frames_beside(rates[k], &again);
+        print_message("%.0f frames a second beside 30: %d in a second\n", rates[k], (int)given);
+        assert_in_range(given, rates[k], rates[k] + 1);
+        assert_int_equal(again, 1);
+    }
+}
+
 static void what_cannot_join_is_told(void **state)
 {
     (void)state;
@@ -180,6 +227,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_crate_lies_where_one_camera_sees_the_floor),
         cmocka_unit_test(a_ball_meets_the_back_that_is_seen),
+        cmocka_unit_test(recordings_keep_together),
         cmocka_unit_test(what_cannot_join_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
