@@ -172,7 +172,8 @@ static void print_openable(const kind_list *list)
         "    keys: seed, person (who it is; 1 = 1.75 m tall), frames, fps, speed, lamp (X,Y,Z),\n"
         "    noise (0|1|steps), edge_filter (0|1), color (WxH or 0), push "
         "(none|lift|swipe|carry),\n"
-        "    path (none|orbit|walk|handheld|look_away|fast|carried|bump: how the camera moves)\n"
+        "    path (none|orbit|walk|handheld|look_away|fast|carried|bump: how the camera moves;\n"
+        "    opposite: it stands 5 m ahead and looks back)\n"
         "    random: room, people, camera and sensor drawn by the seed; with push something\n"
         "    that stood there is lifted, sweeps or carries at speed instead of people coming\n");
 }

@@ -29,29 +29,13 @@ rlf_result session_cameras_open(session_cameras *cameras, const session_options 
     return result;
 }
 
-/* What is seen of a depth picture is the same for all; nothing else of the first one's picture. */
-static rlf_pipeline_def joining(const rlf_pipeline_def *first, rlf_source *source)
-{
-    rlf_pipeline_def def = rlf_pipeline_def_default(first->profile, source, first->pool);
-    const rlf_reconstruct_def own = def.reconstruct;
-    def.reconstruct = first->reconstruct;
-    def.reconstruct.rig = own.rig;
-    def.reconstruct.depth_min_m = own.depth_min_m;
-    def.reconstruct.depth_max_m = own.depth_max_m;
-    def.enable_render = false;
-    def.camera = RLF_CAMERA_FIXED;
-    return def;
-}
-
-rlf_result session_cameras_join(session_cameras *cameras, const rlf_pipeline_def *def,
-                                rlf_pipeline *first)
+rlf_result session_cameras_join(session_cameras *cameras, rlf_pipeline *first)
 {
     rlf_result result = RLF_OK;
     for (int32_t k = 1; k < cameras->count && result == RLF_OK; k++) {
-        rlf_pipeline_def other = joining(def, cameras->sources[k]);
-        other.joins = first;
-        other.T_world_camera = cameras->places[k].T_world_camera;
-        result = rlf_pipeline_create(&other, &cameras->pipelines[k]);
+        const rlf_pipeline_def def = rlf_pipeline_def_joining(
+            first, cameras->sources[k], &cameras->places[k].T_world_camera);
+        result = rlf_pipeline_create(&def, &cameras->pipelines[k]);
     }
     if (result != RLF_OK) {
         session_cameras_leave(cameras);

@@ -9,9 +9,8 @@ rlf_result session_cameras_find(const char *source, session_cameras *out);
 /* Opens all sources but the first, which play as it does. */
 rlf_result session_cameras_open(session_cameras *cameras, const session_options *options,
                                 rlf_pool *pool);
-/* Their pipelines, which join `first`; `def` is the first one's. */
-rlf_result session_cameras_join(session_cameras *cameras, const rlf_pipeline_def *def,
-                                rlf_pipeline *first);
+/* Their pipelines, which join `first`. */
+rlf_result session_cameras_join(session_cameras *cameras, rlf_pipeline *first);
 /* Ends the pipelines; the sources stay. */
 void session_cameras_leave(session_cameras *cameras);
 void session_cameras_close(session_cameras *cameras);

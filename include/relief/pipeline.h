@@ -115,7 +115,7 @@ typedef struct rlf_pipeline_def {
 RLF_API rlf_pipeline_def rlf_pipeline_def_default(rlf_profile profile, rlf_source *source,
                                                   rlf_pool *pool);
 
-/* As above for a camera that calls its program back: no source, frames come by rlf_pipeline_push.
+/* As rlf_pipeline_def_default for a camera that calls its program back: no source, frames come by rlf_pipeline_push.
  * The rig (copied) says what they look like; rlf_rig_default makes one. */
 RLF_API rlf_pipeline_def rlf_pipeline_def_for_rig(rlf_profile profile, const rlf_rig *rig,
                                                   rlf_pool *pool);
@@ -151,6 +151,12 @@ typedef struct rlf_pipeline_output {
 
 /* The frame loop. Not copied, and used from one thread at a time; any number live side by side. */
 typedef struct rlf_pipeline rlf_pipeline;
+
+/* Settings of a camera that joins the world of `first`, see rlf_pipeline_def.joins: it stands at
+ * T_world_camera, and the rules for its surface are those of the first one. It makes no picture
+ * unless enable_render is set. */
+RLF_API rlf_pipeline_def rlf_pipeline_def_joining(rlf_pipeline *first, rlf_source *source,
+                                                  const rlf_pose *T_world_camera);
 
 /* Makes all stages and copies the scene. RLF_ERROR_INVALID names the def's field that is wrong,
  * RLF_ERROR_MEMORY; *out is then NULL. */

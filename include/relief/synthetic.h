@@ -46,7 +46,8 @@ typedef enum rlf_synthetic_push {
  * is blurred. The pictures are cast anew for every frame, which costs tenths of a second; colour is
  * lit without shadows. rlf_frame.T_world_camera is the true pose, the world is the first camera's
  * frame, and all truth is in the frame of the camera as it stands at that frame. Rooms but thesis
- * and random get walls and things to the sides and behind. */
+ * and random get walls and things to the sides and behind. OPPOSITE does not move: it is a second
+ * camera of the same room, and costs and shows what a camera at rest does. */
 typedef enum rlf_synthetic_path {
     RLF_SYNTHETIC_PATH_NONE = 0,
     RLF_SYNTHETIC_PATH_ORBIT = 1,     /* about a point 2 m ahead, 29 degrees to both sides */
@@ -56,8 +57,10 @@ typedef enum rlf_synthetic_path {
                                          and back */
     RLF_SYNTHETIC_PATH_FAST = 5,      /* shaken: up to 1.3 m/s, 100 degrees a second */
     RLF_SYNTHETIC_PATH_CARRIED = 6,   /* stands for 2 s, is carried 0.3 m in 1.5 s, and stands */
-    RLF_SYNTHETIC_PATH_BUMP = 7       /* stands for 2 s, is pushed 1 cm and 1 degree in 0.2 s, and
+    RLF_SYNTHETIC_PATH_BUMP = 7,      /* stands for 2 s, is pushed 1 cm and 1 degree in 0.2 s, and
                                          stands */
+    RLF_SYNTHETIC_PATH_OPPOSITE = 8   /* stands 5 m ahead of the camera at rest and looks back, as
+                                         if the wall between them were glass */
 } rlf_synthetic_path;
 
 /* Values of rlf_truth.label. The first four are the room's shell: endlessly thick, thickness 0. */
@@ -123,7 +126,7 @@ RLF_API rlf_result rlf_synthetic_create(const rlf_synthetic_def *def, rlf_source
  * chair, book, hand, lift, swipe, carry, crossing, random, hands; keys seed, person, frames, fps,
  * speed, lamp (X,Y,Z), noise (0|1|steps), edge_filter (0|1), color (WxH or 0), push
  * (none|lift|swipe|carry), path
- * (none|orbit|walk|handheld|look_away|fast|carried|bump); of scene "hands" also
+ * (none|orbit|walk|handheld|look_away|fast|carried|bump|opposite); of scene "hands" also
  * grasp or gesture (an act's name), view, body, distance, size and hold. A random room draws its
  * sensor and its lamp itself: of noise only 0 has an effect there. RLF_ERROR_INVALID names the part
  * that is wrong and what is allowed. */

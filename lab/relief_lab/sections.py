@@ -29,6 +29,7 @@ OTHERS = {
     "grasps": "another's hands, drawn, grasp, begin to and do not, and move among bodies",
     "gestures": "palms, finger tips and gestures of scripted hands",
     "calibration": "cameras from pictures of a board, where they are known",
+    "cameras": "two cameras that face each other, and the person between them",
     "map": "the room fused from a moving camera, against the true one",
     "sensed": "the same on what the sensor shows, against the true scene",
 }
@@ -39,8 +40,8 @@ RANDOM = {
 ALL = {**SCENES, **OTHERS, **RANDOM}
 
 # Those in Python: function run(task) of the module gives rows of (scene, key, title, profile, value).
-MODULES = {**dict.fromkeys((*SCENES, "random"), "rooms"), "simulator": "points", "planes": "planes", "plate": "planes", "normals": "public",
-           "real": "real"}
+MODULES = {**dict.fromkeys((*SCENES, "random"), "rooms"), "simulator": "points", "planes": "planes", "plate": "planes",
+           "cameras": "cameras", "normals": "public", "real": "real"}
 
 HALVES = ("random", "real")  # the rest of them is in C: throws and pushes, and what real.py names
 

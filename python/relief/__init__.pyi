@@ -293,6 +293,7 @@ class World:
         friction: float = ...,
         color: ArrayLike = ...,
         is_kinematic: bool = ...,
+        collides_with_bodies: bool = ...,
     ) -> Body: ...
     def advance(
         self, dt: float, surface: Surface | None = None, camera_pose: ArrayLike | None = None

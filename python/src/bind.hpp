@@ -190,8 +190,14 @@ void bind_known(py::module_ &m);
 
 // step.cpp, pipeline.cpp, recording.cpp ----------------------------------------------------------
 
+struct JoinedCamera {
+    rlf_source *source;
+    rlf_pipeline *pipeline;
+};
+
 struct PipelineOwner : Owner {
     std::shared_ptr<SourceOwner> source; // none when frames are pushed
+    std::vector<JoinedCamera> joined;    // other cameras of a list
     rlf_pool *pool = nullptr;
     rlf_scene scene = {};
     rlf_pipeline *pipeline = nullptr;

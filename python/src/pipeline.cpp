@@ -41,7 +41,10 @@ class Pipeline
     {
         owner_->pool = make_pool(threads);
         const auto chosen = static_cast<rlf_profile>(choice_from(profile, profiles, "profile"));
-        rlf_pipeline_def def = start(source, chosen, threads);
+        const std::vector<rlf_placed_camera> cameras = cameras_from(source);
+        const bool is_list = !cameras.empty();
+        const py::object first = is_list ? py::str(cameras[0].source) : source;
+        rlf_pipeline_def def = start(first, chosen, threads);
         owner_->rig = def.reconstruct.rig;
         def.camera = static_cast<rlf_camera_mode>(choice_from(camera, modes, "camera"));
         def.poses = static_cast<rlf_pose_origin>(choice_from(poses, origins, "poses"));
@@ -49,6 +52,11 @@ class Pipeline
             set_scale(scale, &def.reconstruct);
         }
         apply(settings, &def.reconstruct);
+        if (is_list) {
+            def.camera = RLF_CAMERA_FIXED;
+            def.T_world_camera = cameras[0].T_world_camera;
+            def.world.camera_capacity = static_cast<int32_t>(cameras.size());
+        }
         def.enable_render = render;
         def.enable_hands = hands;
         def.world.enable_grab = grab;
@@ -62,6 +70,9 @@ class Pipeline
         {
             const Unlocked unlocked;
             result = rlf_pipeline_create(&def, &owner_->pipeline);
+            for (size_t k = 1; k < cameras.size() && result == RLF_OK; k++) {
+                result = join(cameras[k]);
+            }
         }
         check(result);
         if (!gravity.is_none()) {
@@ -226,6 +237,36 @@ class Pipeline
         settings_apply(&list, def);
     }
 
+    // The cameras of a list, FILE.json; none where the source is anything else.
+    static std::vector<rlf_placed_camera> cameras_from(const py::object &source)
+    {
+        const bool is_name = py::isinstance<py::str>(source) || py::hasattr(source, "__fspath__");
+        const std::string name = is_name ? path_from(source, "source", "a name") : "";
+        if (name.size() <= 5 || name.compare(name.size() - 5, 5, ".json") != 0 ||
+            name.find('?') != std::string::npos) {
+            return {};
+        }
+        std::vector<rlf_placed_camera> out(RLF_WORLD_CAMERAS_MAX);
+        int32_t count = 0;
+        check(rlf_cameras_load(name.c_str(), out.data(), &count));
+        out.resize(static_cast<size_t>(count));
+        return out;
+    }
+
+    // Opens a camera beside the first. The pipeline that reads it goes before its source.
+    rlf_result join(const rlf_placed_camera &camera)
+    {
+        owner_->joined.push_back({});
+        JoinedCamera &one = owner_->joined.back();
+        const rlf_result result = rlf_open_source(camera.source, owner_->pool, &one.source);
+        if (result != RLF_OK) {
+            return result;
+        }
+        const rlf_pipeline_def def =
+            rlf_pipeline_def_joining(owner_->pipeline, one.source, &camera.T_world_camera);
+        return rlf_pipeline_create(&def, &one.pipeline);
+    }
+
     rlf_pipeline_def start(const py::object &source, rlf_profile profile, int threads)
     {
         if (py::isinstance<rlf_rig>(source)) {
@@ -307,7 +348,13 @@ void let_collect(PyHeapTypeObject *heap_type)
 PipelineOwner::~PipelineOwner()
 {
     const Unlocked unlocked;
+    for (JoinedCamera &one : joined) {
+        rlf_pipeline_destroy(&one.pipeline);
+    }
     rlf_pipeline_destroy(&pipeline);
+    for (JoinedCamera &one : joined) {
+        rlf_source_destroy(&one.source);
+    }
     rlf_scene_destroy(&scene);
     rlf_pool_destroy(&pool);
 }
@@ -348,7 +395,8 @@ void bind_pipeline(py::module_ &m)
              py::arg("profile") = "live", py::arg("camera") = "auto", py::arg("poses") = "tracked",
              py::arg("gravity") = py::none(), py::arg("render") = true, py::arg("hands") = false,
              py::arg("grab") = false, py::arg("threads") = 0, py::arg("settings") = py::dict(), py::arg("scale") = 0,
-             "source: a name as for open(), a Source, or a Rig or Camera whose frames are pushed. "
+             "source: a name as for open(), a Source, or a Rig or Camera whose frames are pushed; or a "
+             "list of cameras, FILE.json, all of which see the world. "
              "scene: the path of a scene.json. gravity: m/s^2, world. hands: looks for them. grab: "
              "hands hold what they close on. threads 0 = one per processor. settings: of the surface in "
              "place of the profile's, as {\"hold\": False}; `relief list settings` lists them. scale: every so many pixels have a point; 0 = the profile's.")

@@ -90,10 +90,12 @@ rlf_body_def def_from(const std::string &shape, const py::object &size, double r
             def.friction = number_from(value, "friction");
         } else if (key == "is_kinematic") {
             def.is_kinematic = PyObject_IsTrue(value.ptr()) == 1;
+        } else if (key == "collides_with_bodies") {
+            def.collides_with_bodies = PyObject_IsTrue(value.ptr()) == 1;
         } else {
             throw py::type_error("add(): there is no \"" + key +
                                  "\": use name, position, pose, velocity, angular_velocity, mass, "
-                                 "restitution, friction, color or is_kinematic");
+                                 "restitution, friction, color, is_kinematic or collides_with_bodies");
         }
     }
     return def;
@@ -386,7 +388,7 @@ void bind_world(py::module_ &m)
              py::arg("radius") = 0.05, py::arg("height") = 0.1,
              "Adds a body: shape \"box\" (size), \"sphere\" (radius), \"capsule\" or \"cylinder\" "
              "(radius, height along y). More by name: name, position, pose, velocity, "
-             "angular_velocity, mass, restitution, friction, color, is_kinematic.")
+             "angular_velocity, mass, restitution, friction, color, is_kinematic, collides_with_bodies.")
         .def("advance", &advance, py::arg("dt"), py::arg("surface") = py::none(),
              py::arg("camera_pose") = py::none(),
              "By dt seconds, at most 1, against a Surface seen from camera_pose, or through empty "

@@ -1,6 +1,7 @@
 """The package as its users meet it: frames, surfaces, bodies, and every mistake with its answer."""
 
 import gc
+import json
 import os
 import threading
 
@@ -115,6 +116,38 @@ def test_a_ball_falls_on_pushed_depth():
         assert touched[0][2] == "background"
         assert step.picture is None
         assert p.world.cast_ray((0, 0, 0), (0, 0, 1), 5)[1] == pytest.approx(1.8, abs=0.01)
+
+
+def list_cameras(folder, *cameras):
+    path = folder / "stage.json"
+    path.write_text(json.dumps({"cameras": cameras}))
+    return path
+
+
+FRONT = {"source": "synthetic:room?color=0&frames=16&noise=0"}
+BACK = {"source": FRONT["source"] + "&path=opposite", "position": [0, 0, 5], "orientation": [0, 1, 0, 0]}
+
+
+def test_a_ball_meets_what_only_the_second_camera_sees(tmp_path):
+    """The floor 1.2 m ahead of the first camera, below its view; nothing is guessed there."""
+    scene = tmp_path / "open.json"
+    scene.write_text('{"gravity": [0, 9.81, 0], "border": "open"}')
+    heights = []
+    for cameras in ([FRONT], [FRONT, BACK]):
+        with relief.Pipeline(list_cameras(tmp_path, *cameras), scene=scene, render=False, threads=1) as both:
+            ball = both.world.add("sphere", radius=0.05, position=(0, 1.0, 1.2), restitution=0.0)
+            for _ in both:
+                pass
+            heights.append(ball.position[1])
+    assert heights[0] > 1.4
+    assert heights[1] == pytest.approx(1.25, abs=0.01)
+
+
+def test_a_list_of_cameras_that_cannot_be_opened_is_named(tmp_path):
+    with pytest.raises(relief.Error, match="nowhere"):
+        relief.Pipeline(list_cameras(tmp_path, FRONT, {"source": "nowhere"}), threads=1)
+    with pytest.raises(relief.Error, match="colour is no key"):
+        relief.Pipeline(list_cameras(tmp_path, {**FRONT, "colour": 1}), threads=1)
 
 
 def test_metres_and_millimetres_are_the_same():

@@ -85,6 +85,24 @@ rlf_pipeline_def rlf_pipeline_def_default(rlf_profile profile, rlf_source *sourc
     return def;
 }
 
+rlf_pipeline_def rlf_pipeline_def_joining(rlf_pipeline *first, rlf_source *source,
+                                          const rlf_pose *T_world_camera)
+{
+    if (!RLF_ASSERT(first != NULL && T_world_camera != NULL)) {
+        return def_of(RLF_PROFILE_LIVE, NULL, NULL);
+    }
+    rlf_pipeline_def def = rlf_pipeline_def_default(first->def.profile, source, first->def.pool);
+    const rlf_reconstruct_def own = def.reconstruct;
+    def.reconstruct = first->def.reconstruct;
+    def.reconstruct.rig = own.rig;
+    def.reconstruct.depth_min_m = own.depth_min_m;
+    def.reconstruct.depth_max_m = own.depth_max_m;
+    def.joins = first;
+    def.T_world_camera = *T_world_camera;
+    def.enable_render = false;
+    return def;
+}
+
 rlf_pipeline_def rlf_pipeline_def_for_rig(rlf_profile profile, const rlf_rig *rig, rlf_pool *pool)
 {
     return def_of(profile, RLF_ASSERT(rig != NULL) ? rig : NULL, pool);

@@ -260,7 +260,7 @@ static const char *set_value(piece key, piece value, rlf_synthetic_def *def, boo
     }
     if (is_word(key, "path")) {
         *is_good = read_path(value, &def->path);
-        return "none, orbit, walk, handheld, look_away, fast, carried or bump";
+        return "none, orbit, walk, handheld, look_away, fast, carried, bump or opposite";
     }
     if (is_word(key, "color")) {
         *is_good = read_size(value, def);

@@ -8,6 +8,7 @@
 #define LOOKED_AT 20.0 /* seconds of the path whose clearance is looked at */
 #define PIVOT 2.0      /* metres ahead: what an orbit goes about */
 #define STOOD 2.0      /* seconds before a camera that stands is moved */
+#define APART 5.0      /* metres between the camera at rest and the one that faces it */
 
 /* Six numbers of a camera, path frame: metres; radians about y, then x, then z. */
 typedef struct placed {
@@ -95,14 +96,16 @@ static placed place_at(rlf_synthetic_path kind, double t)
     case RLF_SYNTHETIC_PATH_FAST: return fast(t);
     case RLF_SYNTHETIC_PATH_CARRIED: return carried(ease((t - STOOD) / 1.5));
     case RLF_SYNTHETIC_PATH_BUMP: return bump(ease((t - STOOD) / 0.2));
+    case RLF_SYNTHETIC_PATH_OPPOSITE: return (placed){{0, 0, APART}, RLF_PI, 0.0, 0.0};
     default: return (placed){.yaw = 0.0};
     }
 }
 
 rlf_pose synth_path_pose(const synth_path *path, double t)
 {
+    const bool is_opposite = path->kind == RLF_SYNTHETIC_PATH_OPPOSITE;
     const placed c = place_at(path->kind, t);
-    const double begun = ease(t);
+    const double begun = is_opposite ? 1.0 : ease(t);
     const rlf_quat yaw = rlf_quat_from_axis_angle(rlf_vec3_make(0, 1, 0), begun * c.yaw);
     const rlf_quat pitch = rlf_quat_from_axis_angle(rlf_vec3_make(1, 0, 0), begun * c.pitch);
     const rlf_quat roll = rlf_quat_from_axis_angle(rlf_vec3_make(0, 0, 1), begun * c.roll);
@@ -139,7 +142,7 @@ void synth_path_make(synth_path *path, rlf_synthetic_path kind, const synth_scen
             rlf_quat_from_axis_angle(rlf_vec3_make(0, 1, 0), rlf_atan2(ahead.x, ahead.z));
         path->q_camera_path = rlf_quat_mul(q_camera_level, heading);
     }
-    while (path->scale > 0.01 && !is_clear(path, rest)) {
+    while (kind != RLF_SYNTHETIC_PATH_OPPOSITE && path->scale > 0.01 && !is_clear(path, rest)) {
         path->scale *= 0.8;
     }
 }

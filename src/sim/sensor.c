@@ -150,7 +150,7 @@ static rlf_result sensor_next(void *self, rlf_frame *out)
     out->depth_u16 = sensor->depth.out;
     out->depth_stride = SYNTH_DEPTH_WIDTH * (ptrdiff_t)sizeof(uint16_t);
     out->depth_units_per_metre = 1000.0;
-    out->has_pose = sensor->scene.is_moving;
+    out->has_pose = sensor->def.path != RLF_SYNTHETIC_PATH_NONE;
     out->T_world_camera = sensor->T_world_camera;
     return RLF_OK;
 }
@@ -208,9 +208,11 @@ static void build_scene(synth_sensor *sensor)
         if (def->scene != RLF_SYNTHETIC_RANDOM && def->scene != RLF_SYNTHETIC_THESIS) {
             synth_path_close_room(&sensor->scene);
         }
-        sensor->scene.is_moving = true;
+        sensor->scene.is_moving = def->path != RLF_SYNTHETIC_PATH_OPPOSITE;
         sensor->rest = sensor->scene;
         synth_path_make(&sensor->path, def->path, &sensor->rest);
+        sensor->T_world_camera = synth_path_pose(&sensor->path, 0.0);
+        synth_path_see(&sensor->rest, &sensor->T_world_camera, &sensor->scene);
     }
     sensor->asked = sensor->scene;
 }

@@ -38,7 +38,7 @@ set_tests_properties(lab.python PROPERTIES ENVIRONMENT "${lab_python}")
 # takes two. A random room has no bounds and need only come to its end. Minutes with sanitizers, so
 # only as released.
 if(CMAKE_BUILD_TYPE STREQUAL Release)
-  foreach(scene room chair book simulator planes plate physics known)
+  foreach(scene room chair book simulator planes plate cameras physics known)
     lab_check(bounds_${scene} ${lab_program} eval --scene ${scene} --profile live --seeds 1 --threads 1)
   endforeach()
   lab_check(bounds_picture ${lab_program} eval --scene picture --profile live --seeds 2)

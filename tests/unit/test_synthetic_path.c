@@ -89,6 +89,40 @@ static void test_paths_begin_at_rest(void **state)
     }
 }
 
+/* What the second camera sees of the person is where the first camera's truth has the person. */
+static void test_the_opposite_camera_sees_the_same_person(void **state)
+{
+    (void)state;
+    rlf_source *front = open_source("synthetic:room?color=0&noise=0&fps=1");
+    rlf_source *back = open_source("synthetic:room?path=opposite&color=0&noise=0&fps=1");
+    rlf_frame unused, frame;
+    int32_t count = 0;
+    for (int k = 0; k < 6; k++) {
+        assert_int_equal(rlf_source_next(front, &unused), RLF_OK);
+        frame = next_of(back);
+    }
+    assert_true(frame.T_world_camera.p.z == 5.0);
+    const rlf_truth *truth = rlf_source_get_truth(back);
+    const rlf_camera *c = &frame.rig->depth;
+    for (int32_t i = 0; i < WIDTH * HEIGHT; i += 13) {
+        if (truth->label[i] == RLF_SYNTHETIC_LABEL_PERSON) {
+            const double z = (double)truth->depth[i];
+            const rlf_vec3 p = {(i % WIDTH - c->cx) / c->fx * z, (i / WIDTH - c->cy) / c->fy * z, z};
+            double distance;
+            int32_t label;
+            assert_int_equal(rlf_synthetic_distance(front, rlf_transform(&frame.T_world_camera, p),
+                                                    &distance, NULL, &label),
+                             RLF_OK);
+            assert_true(distance < 1e-4 && distance > -1e-4);
+            assert_int_equal(label, RLF_SYNTHETIC_LABEL_PERSON);
+            count++;
+        }
+    }
+    assert_true(count > 500);
+    rlf_source_destroy(&front);
+    rlf_source_destroy(&back);
+}
+
 static void test_a_restart_gives_the_same_bits(void **state)
 {
     static uint16_t first[WIDTH * HEIGHT];
@@ -117,6 +151,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_pictures_agree_with_poses),
         cmocka_unit_test(test_paths_begin_at_rest),
+        cmocka_unit_test(test_the_opposite_camera_sees_the_same_person),
         cmocka_unit_test(test_a_restart_gives_the_same_bits),
         cmocka_unit_test(test_hostile_settings),
     };
