@@ -33,8 +33,8 @@ rlf_result session_cameras_join(session_cameras *cameras, rlf_pipeline *first)
 {
     rlf_result result = RLF_OK;
     for (int32_t k = 1; k < cameras->count && result == RLF_OK; k++) {
-        const rlf_pipeline_def def = rlf_pipeline_def_joining(
-            first, cameras->sources[k], &cameras->places[k].T_world_camera);
+        const rlf_pipeline_def def = rlf_pipeline_def_joining(first, cameras->sources[k],
+                                                              &cameras->places[k].T_world_camera);
         result = rlf_pipeline_create(&def, &cameras->pipelines[k]);
     }
     if (result != RLF_OK) {

@@ -115,8 +115,8 @@ typedef struct rlf_pipeline_def {
 RLF_API rlf_pipeline_def rlf_pipeline_def_default(rlf_profile profile, rlf_source *source,
                                                   rlf_pool *pool);
 
-/* As rlf_pipeline_def_default for a camera that calls its program back: no source, frames come by rlf_pipeline_push.
- * The rig (copied) says what they look like; rlf_rig_default makes one. */
+/* As rlf_pipeline_def_default for a camera that calls its program back: no source, frames come by
+ * rlf_pipeline_push. The rig (copied) says what they look like; rlf_rig_default makes one. */
 RLF_API rlf_pipeline_def rlf_pipeline_def_for_rig(rlf_profile profile, const rlf_rig *rig,
                                                   rlf_pool *pool);
 

@@ -35,8 +35,7 @@ class Pipeline
   public:
     Pipeline(const py::object &source, const py::object &scene, const std::string &profile,
              const std::string &camera, const std::string &poses, const py::object &gravity,
-             bool render, bool hands, bool grab, int threads, const py::dict &settings,
-             int scale)
+             bool render, bool hands, bool grab, int threads, const py::dict &settings, int scale)
         : owner_(std::make_shared<PipelineOwner>())
     {
         owner_->pool = make_pool(threads);
@@ -229,9 +228,9 @@ class Pipeline
         setting_list list = {};
         for (const auto &item : settings) {
             const bool is_switch = py::isinstance<py::bool_>(item.second);
-            const std::string value = !is_switch                     ? py::str(item.second)
+            const std::string value = !is_switch                 ? py::str(item.second)
                                       : item.second.cast<bool>() ? "on"
-                                                                     : "off";
+                                                                 : "off";
             check(settings_add(&list, (std::string(py::str(item.first)) + "=" + value).c_str()));
         }
         settings_apply(&list, def);
@@ -394,12 +393,16 @@ void bind_pipeline(py::module_ &m)
              py::arg("source"), py::kw_only(), py::arg("scene") = py::none(),
              py::arg("profile") = "live", py::arg("camera") = "auto", py::arg("poses") = "tracked",
              py::arg("gravity") = py::none(), py::arg("render") = true, py::arg("hands") = false,
-             py::arg("grab") = false, py::arg("threads") = 0, py::arg("settings") = py::dict(), py::arg("scale") = 0,
-             "source: a name as for open(), a Source, or a Rig or Camera whose frames are pushed; or a "
+             py::arg("grab") = false, py::arg("threads") = 0, py::arg("settings") = py::dict(),
+             py::arg("scale") = 0,
+             "source: a name as for open(), a Source, or a Rig or Camera whose frames are pushed; "
+             "or a "
              "list of cameras, FILE.json, all of which see the world. "
              "scene: the path of a scene.json. gravity: m/s^2, world. hands: looks for them. grab: "
-             "hands hold what they close on. threads 0 = one per processor. settings: of the surface in "
-             "place of the profile's, as {\"hold\": False}; `relief list settings` lists them. scale: every so many pixels have a point; 0 = the profile's.")
+             "hands hold what they close on. threads 0 = one per processor. settings: of the "
+             "surface in "
+             "place of the profile's, as {\"hold\": False}; `relief list settings` lists them. "
+             "scale: every so many pixels have a point; 0 = the profile's.")
         .def("step", &Pipeline::step, "The next Step; None when a live camera has nothing new.")
         .def("push", &Pipeline::push, py::arg("depth"), py::arg("color") = py::none(),
              py::kw_only(), py::arg("time"), py::arg("units_per_metre") = 1000.0,

@@ -93,9 +93,10 @@ rlf_body_def def_from(const std::string &shape, const py::object &size, double r
         } else if (key == "collides_with_bodies") {
             def.collides_with_bodies = PyObject_IsTrue(value.ptr()) == 1;
         } else {
-            throw py::type_error("add(): there is no \"" + key +
-                                 "\": use name, position, pose, velocity, angular_velocity, mass, "
-                                 "restitution, friction, color, is_kinematic or collides_with_bodies");
+            throw py::type_error(
+                "add(): there is no \"" + key +
+                "\": use name, position, pose, velocity, angular_velocity, mass, "
+                "restitution, friction, color, is_kinematic or collides_with_bodies");
         }
     }
     return def;
@@ -388,7 +389,8 @@ void bind_world(py::module_ &m)
              py::arg("radius") = 0.05, py::arg("height") = 0.1,
              "Adds a body: shape \"box\" (size), \"sphere\" (radius), \"capsule\" or \"cylinder\" "
              "(radius, height along y). More by name: name, position, pose, velocity, "
-             "angular_velocity, mass, restitution, friction, color, is_kinematic, collides_with_bodies.")
+             "angular_velocity, mass, restitution, friction, color, is_kinematic, "
+             "collides_with_bodies.")
         .def("advance", &advance, py::arg("dt"), py::arg("surface") = py::none(),
              py::arg("camera_pose") = py::none(),
              "By dt seconds, at most 1, against a Surface seen from camera_pose, or through empty "

@@ -10,8 +10,8 @@
 
 static const char *const scene_names[] = {"room", "empty", "thesis", "chair",    "book",   "hand",
                                           "lift", "swipe", "carry",  "crossing", "random", "hands"};
-static const char *const path_names[] = {"none",      "orbit", "walk",    "handheld",
-                                         "look_away", "fast",  "carried", "bump", "opposite"};
+static const char *const path_names[] = {"none", "orbit",   "walk", "handheld", "look_away",
+                                         "fast", "carried", "bump", "opposite"};
 #define PATH_COUNT ((int)(sizeof(path_names) / sizeof(path_names[0])))
 #define SCENE_COUNT ((int)(sizeof(scene_names) / sizeof(scene_names[0])))
 

@@ -107,7 +107,8 @@ static void test_the_opposite_camera_sees_the_same_person(void **state)
     for (int32_t i = 0; i < WIDTH * HEIGHT; i += 13) {
         if (truth->label[i] == RLF_SYNTHETIC_LABEL_PERSON) {
             const double z = (double)truth->depth[i];
-            const rlf_vec3 p = {(i % WIDTH - c->cx) / c->fx * z, (i / WIDTH - c->cy) / c->fy * z, z};
+            const rlf_vec3 p = {(i % WIDTH - c->cx) / c->fx * z, (i / WIDTH - c->cy) / c->fy * z,
+                                z};
             double distance;
             int32_t label;
             assert_int_equal(rlf_synthetic_distance(front, rlf_transform(&frame.T_world_camera, p),
