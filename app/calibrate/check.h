@@ -20,5 +20,8 @@ bool calibrate_stand_floor(const calibrate_stand *s, double *out_below_m);
 
 /* Measures a source and prints it. */
 rlf_result calibrate_check(const char *name, bool *out_is_stale);
+/* The same of a list of cameras (docs/several-cameras.md): whether the surfaces that they share lie
+ * on each other. Writes the list with poses by the room to out_path; NULL = only prints. */
+rlf_result calibrate_check_cameras(const char *list, const char *out_path, bool *out_is_off);
 
 #endif

@@ -47,7 +47,9 @@ static void print_help(void)
         "  --print-board CxR write a board to print on A4 as --out; --letter: on Letter\n"
         "  --check SOURCE    without any board: how far colour's edges are off depth's, the floor\n"
         "                    and how the camera stands; exit status 1 when the calibration is "
-        "stale\n"
+        "stale.\n"
+        "                    Of a list of cameras, FILE.json: how far each is from where the list\n"
+        "                    says, by what it and the first one see; --out FILE corrects the list\n"
         "  --convert FILE    read camera.json, or a calibration of ROS, OpenCV, Open3D or mrcal,\n"
         "                    and write it as --out; \"DEPTH,COLOR\" are two files\n"
         "  --as FORMAT       of --out: relief, ros, opencv, open3d or mrcal; else .yaml is ros,\n"
@@ -284,10 +286,16 @@ static int print_board(const calibrate_options *o)
 }
 
 /* Stale and failed are one exit status; only a failure has an error line. */
-static int check_source(const char *source)
+static int check_source(const calibrate_options *o)
 {
     bool is_stale = false;
-    rlf_result result = calibrate_check(source, &is_stale);
+    const size_t length = strlen(o->check);
+    const bool is_list = length > 5 && strcmp(o->check + length - 5, ".json") == 0;
+    if (!is_list && o->out_path != NULL) {
+        return command_usage("calibrate", "--check writes --out of a list of cameras only");
+    }
+    rlf_result result = is_list ? calibrate_check_cameras(o->check, o->out_path, &is_stale)
+                                : calibrate_check(o->check, &is_stale);
     if (command_interrupted) {
         return command_stopped("calibrate");
     }
@@ -308,7 +316,7 @@ int calibrate_main(int argc, char **argv)
         return print_board(&options);
     }
     if (options.check != NULL) {
-        return check_source(options.check);
+        return check_source(&options);
     }
     if (options.convert != NULL) {
         return calibrate_convert(&options) == RLF_OK ? EXIT_DONE : command_failed();

@@ -73,5 +73,42 @@ echo "{ \"cameras\": [ { $first }, { $second } ] }" >unplugged.json
 "$relief" run unplugged.json --headless --frames 60 >stdout.txt 2>stderr.txt || fail "unplugged: $(cat stderr.txt)"
 grep -q '^60 frames' stdout.txt || fail "the others waited: $(cat stdout.txt)"
 
+# ---- where they stand ---------------------------------------------------------------------------------
+# Two views of a camera that goes about a point 2 m ahead (relief/synthetic.h, orbit), 2 m and 57 degrees apart; the second
+# one's place in the list is wrong by some centimetres.
+"$relief" record 'synthetic:empty?path=orbit&color=64x36&fps=0.4545&frames=4' orbit.mcap --quiet || fail "orbit.mcap"
+# camera FRAME SECONDS WRONG_M WRONG_RAD
+camera()
+{
+    awk -v frame="$1" -v t="$2" -v off="$3" -v turned="$4" 'BEGIN {
+        pi = atan2(0, -1); a = 0.5 * sin(2 * pi * 0.11 * t)
+        printf "{ \"source\": \"orbit.mcap?start=%d&count=1\", ", frame
+        printf "\"position\": [%f, %f, %f], ", -2 * sin(a) + off, 0.05 * sin(2 * pi * 0.2 * t) - off, 2 * (1 - cos(a)) + off
+        printf "\"orientation\": [0, %f, 0, %f] }", sin((a + turned) / 2), cos((a + turned) / 2) }'
+}
+first=$(camera 1 2.20022 0 0)
+echo "{ \"cameras\": [ $first, $(camera 3 6.60066 0.025 0.02) ] }" >off.json
+echo "{ \"cameras\": [ $first, $(camera 3 6.60066 0 0) ] }" >right.json
+view='"source": "synthetic:empty?color=0&frames=20'
+echo "{ \"cameras\": [ { $view\" }, { $view&path=opposite\", \"position\": [0, 0, 5], \"orientation\": [0, 1, 0, 0] } ] }" >opposite.json
+"$relief" calibrate --check off.json --out mended.json >stdout.txt 2>stderr.txt && fail "poses that are off hold"
+grep -q 'camera 1  off: by 4[0-9]\.[0-9] mm and 1\.1[0-9] degrees' stdout.txt || fail "off: $(cat stdout.txt stderr.txt)"
+cat stdout.txt
+"$relief" calibrate --check mended.json >stdout.txt 2>stderr.txt || fail "mended.json: $(cat stdout.txt stderr.txt)"
+grep -q 'camera 1  holds: by [0-2]\.[0-9] mm and 0\.0[0-9] degrees' stdout.txt || fail "mended: $(cat stdout.txt)"
+# place LIST: of its second camera, on one line.
+place() { tr -d ' \n' <"$1" | sed 's/.*"position":\[\([^]]*\).*/\1/'; }
+printf '%s,%s\n' "$(place mended.json)" "$(place right.json)" | awk -F, '{
+    d = 1000 * sqrt(($1 - $4) ^ 2 + ($2 - $5) ^ 2 + ($3 - $6) ^ 2)
+    printf "wrong by 43.3 mm before, by %.1f mm after the correction\n", d
+    exit !(d < 3) }' || fail "mended: $(place mended.json), right: $(place right.json)"
+"$relief" calibrate --check right.json >stdout.txt 2>stderr.txt || fail "right.json: $(cat stdout.txt stderr.txt)"
+grep -q 'camera 1  holds: by [0-3]\.[0-9] mm and 0\.[01][0-9] degrees' stdout.txt || fail "right: $(cat stdout.txt)"
+cat stdout.txt
+"$relief" calibrate --check opposite.json --out kept.json >stdout.txt 2>stderr.txt || fail "opposite: $(cat stderr.txt)"
+grep -q 'camera 1  cannot be told' stdout.txt || fail "cameras that see too little of the same: $(cat stdout.txt)"
+grep -A3 position kept.json | tr -d ' \n' | grep -q '0.0,0.0,5.0' || fail "kept.json: $(cat kept.json)"
+"$relief" calibrate --check synthetic:empty --out no.json >stdout.txt 2>stderr.txt && fail "--out of one camera"
+
 [ "$failures" -eq 0 ] || exit 1
 echo "passed"
