@@ -2,7 +2,8 @@
  *   bench_ros2 [OPTIONS]           host and reader on this machine
  *   bench_ros2 --host [OPTIONS]    the host alone, until it is killed
  *   bench_ros2 --read [OPTIONS]    the reader alone
- * --seconds N (5), --profile local|lan|FILE, --color WxH (1920x1080; 0x0 = none). Depth is
+ * --seconds N (5), --profile local|lan|FILE, --color WxH (1920x1080; 0x0 = none), --name /CAMERA
+ * (/bench). Depth is
  * 512 x 424 counts that RVL packs as it packs a room; 30 Hz. */
 #define _POSIX_C_SOURCE 200809L
 #include "io/source/backends.h"
@@ -26,7 +27,7 @@
 typedef struct options {
     bool is_host, is_reader;
     int seconds, color_width, color_height;
-    const char *profile;
+    const char *profile, *name;
 } options;
 
 static int64_t wall_ns(void)
@@ -87,7 +88,7 @@ static void fill_color(uint8_t *rgba, int width, int height)
 static int run_host(const options *o)
 {
     char path[128];
-    snprintf(path, sizeof(path), "ros2:/bench?profile=%s", o->profile);
+    snprintf(path, sizeof(path), "ros2:%s?profile=%s", o->name, o->profile);
     const rlf_source_info info = {.rig = rig_of(o), .is_live = true};
     const rlf_recording_def def = rlf_recording_def_default();
     rlf_recording *out = NULL;
@@ -159,8 +160,8 @@ static int run_reader(const options *o)
 {
     static result r;
     rlf_opened source = {0};
-    const rlf_address address = {.source = "ros2:/bench",
-                                 .place = "/bench",
+    const rlf_address address = {.source = "ros2:",
+                                 .place = o->name,
                                  .key_count = 1,
                                  .keys = {"profile"},
                                  .values = {o->profile}};
@@ -189,7 +190,11 @@ static int run_reader(const options *o)
 
 static bool parse(int argc, char **argv, options *o)
 {
-    *o = (options){.seconds = 5, .color_width = 1920, .color_height = 1080, .profile = "local"};
+    *o = (options){.seconds = 5,
+                   .color_width = 1920,
+                   .color_height = 1080,
+                   .profile = "local",
+                   .name = "/bench"};
     for (int i = 1; i < argc; i++) {
         const char *value = i + 1 < argc ? argv[i + 1] : "";
         if (strcmp(argv[i], "--host") == 0) {
@@ -202,12 +207,15 @@ static bool parse(int argc, char **argv, options *o)
         } else if (strcmp(argv[i], "--profile") == 0) {
             o->profile = value;
             i++;
+        } else if (strcmp(argv[i], "--name") == 0) {
+            o->name = value;
+            i++;
         } else if (strcmp(argv[i], "--color") == 0 &&
                    sscanf(value, "%dx%d", &o->color_width, &o->color_height) == 2) {
             i++;
         } else {
             fprintf(stderr, "usage: bench_ros2 [--host | --read] [--seconds N] [--profile NAME] "
-                            "[--color WxH]\n");
+                            "[--color WxH] [--name /CAMERA]\n");
             return false;
         }
     }

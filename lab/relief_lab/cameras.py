@@ -93,6 +93,24 @@ TITLES = {"thickness_error_cm": "thickness of a person, %s: mean error, cm",
           "lines_without_percent": "lines through a person, %s: a side is not met, %"}
 
 
+def _loop_ms(folder, seed, count):
+    """Median of a frame's surfaces and physics by `count` cameras of one view."""
+    path = os.path.join(folder, "loop_%d.json" % count)
+    view = "synthetic:book?color=0&frames=45&seed=%d"
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump({"cameras": [{"source": view % (seed + k)} for k in range(count)]}, file)
+    with relief.Pipeline(path, render=False, threads=1) as pipeline:
+        times = [step.times_ms["surface"] + step.times_ms["physics"] for step in pipeline]
+    return float(np.median(times[15:]))
+
+
+def loop_figures(folder, seed):
+    """What more cameras cost; only in one run, for the machine's load changes."""
+    one = _loop_ms(folder, seed, 1)
+    for count in (2, 4):
+        yield "loop_of_%d" % count, "frame loop of %d cameras, times that of one" % count, _loop_ms(folder, seed, count) / one
+
+
 def run(task):
     for profile in task.profiles:
         if profile != "live":
@@ -102,3 +120,5 @@ def run(task):
                 found = figures(*_cameras(folder, task.seed, count))
                 for key, title in TITLES.items():
                     yield task.section, "%s_of_%d" % (key, count), title.replace("%s", words), profile, found[key]
+            for key, title, value in loop_figures(folder, task.seed):
+                yield task.section, key, title, profile, value

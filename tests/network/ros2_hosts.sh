@@ -1,8 +1,8 @@
 #!/bin/sh
-# Two hosts, made of network namespaces and a pair of cables between them: ros2_hosts.sh BENCH
-# [SECONDS [all]]. BENCH is bench_ros2. What is measured is printed; exit status 1 when a figure is
-# worse than its bound, 77 (a skip) without root and namespaces. `all` adds a link of 940 Mbit/s
-# with 1080p pictures, and more loss.
+# Hosts with a camera each and one that reads them, made of network namespaces and cables between
+# them: ros2_hosts.sh BENCH [SECONDS [all]]. BENCH is bench_ros2. What is measured is printed; exit
+# status 1 when a figure is worse than its bound, 77 (a skip) without root and namespaces. `all` adds
+# a link of 940 Mbit/s with 1080p pictures, and more loss.
 set -eu
 
 bench=$1
@@ -20,27 +20,35 @@ skip() {
 
 # shellcheck disable=SC2317 # called by the trap
 finish() {
-    [ -z "$host" ] || kill -9 "$host" 2>/dev/null || true
-    ip netns del "$a" 2>/dev/null || true
-    ip netns del "$b" 2>/dev/null || true
+    # shellcheck disable=SC2086 # one process each
+    [ -z "$host" ] || kill -9 $host 2>/dev/null || true
+    for name in "$b" "$a" "$a"_2 "$a"_3 "$a"_4; do
+        ip netns del "$name" 2>/dev/null || true
+    done
     rm -rf "$work"
+}
+
+# A camera host NAME of that number, plugged into the reader's switch.
+plug_in() { # NAME NUMBER PORT
+    ip netns add "$1" 2>/dev/null || skip "no network namespaces here"
+    ip link add "ve_a$$" type veth peer name "ve_b$$" 2>/dev/null || skip "no veth here"
+    ip link set "ve_a$$" netns "$1" name eth9
+    ip link set "ve_b$$" netns "$b" name "$3"
+    ip -n "$b" link set "$3" master switch up
+    ip -n "$1" addr add "10.77.0.$2/24" dev eth9
+    ip -n "$1" link set eth9 up
+    ip -n "$1" link set lo up
 }
 
 [ "$(id -u)" = 0 ] || skip "needs root"
 command -v ip >/dev/null || skip "needs iproute2"
-ip netns add "$a" 2>/dev/null || skip "no network namespaces here"
 trap finish EXIT INT TERM
-ip netns add "$b"
-
-ip link add "ve_a$$" type veth peer name "ve_b$$" 2>/dev/null || skip "no veth here"
-ip link set "ve_a$$" netns "$a" name eth9
-ip link set "ve_b$$" netns "$b" name eth9
-for side in "$a 10.77.0.1" "$b 10.77.0.2"; do
-    name=${side% *}
-    ip -n "$name" addr add "${side#* }/24" dev eth9
-    ip -n "$name" link set eth9 up
-    ip -n "$name" link set lo up
-done
+ip netns add "$b" 2>/dev/null || skip "no network namespaces here"
+ip -n "$b" link add switch type bridge 2>/dev/null || skip "no bridge here"
+ip -n "$b" addr add 10.77.0.100/24 dev switch
+ip -n "$b" link set switch up
+ip -n "$b" link set lo up
+plug_in "$a" 1 eth9
 
 export ROS_DOMAIN_ID=7
 
@@ -125,6 +133,33 @@ wait "$reader" || { cat "$work/killed"; exit 1; }
 echo "killed: $(cat "$work/killed")"
 expect killed 100000 2000
 stop_host
+
+# ---- four hosts with a camera each, and one that reads them all
+
+for k in 2 3 4; do
+    plug_in "${a}_$k" $k "port$k"
+done
+for k in 1 2 3 4; do
+    from=$a
+    [ $k = 1 ] || from=${a}_$k
+    ip netns exec "$from" "$bench" --host --profile lan --color 640x480 --name "/camera_$k" &
+    host="$host $!"
+done
+readers=
+for k in 1 2 3 4; do
+    ip netns exec "$b" "$bench" --read --profile lan --seconds "$seconds" --color 640x480 --name "/camera_$k" \
+        >"$work/four_$k" 2>&1 &
+    readers="$readers $!"
+done
+# shellcheck disable=SC2086 # one process each
+wait $readers
+for k in 1 2 3 4; do
+    echo "four_hosts, camera $k: $(cat "$work/four_$k")"
+    expect "four_$k" 3 400
+done
+# shellcheck disable=SC2086
+kill -9 $host
+host=
 
 [ "$extent" = all ] || exit 0
 
