@@ -77,6 +77,18 @@ static void choose_headless_renderer(run_options *o, session *s)
     o->use_gl = false;
 }
 
+/* The moment as another camera of the list sees it. */
+static rlf_result draw_other(session *s, int32_t camera, rlf_pipeline_output *frame)
+{
+    rlf_pipeline_output other;
+    rlf_result result = rlf_pipeline_redraw(s->cameras.pipelines[camera - 1], &other);
+    if (result == RLF_OK) {
+        frame->render = other.render;
+        frame->surface = other.surface;
+    }
+    return result == RLF_NO_FRAME ? RLF_OK : result;
+}
+
 static rlf_result run_headless(const run_options *o, session *s, run_output *output)
 {
     while (!command_interrupted && (o->frame_count < 0 || output->frames < o->frame_count)) {
@@ -87,6 +99,9 @@ static rlf_result run_headless(const run_options *o, session *s, run_output *out
         }
         if (result == RLF_NO_FRAME) {
             continue;
+        }
+        if (result == RLF_OK && o->session.drawn_camera > 1) {
+            result = draw_other(s, o->session.drawn_camera, &frame);
         }
         if (result == RLF_OK) {
             result = run_output_add(output, &frame);
@@ -119,11 +134,22 @@ void run_window_end(void) {}
 
 static rlf_result run_frames(run_options *o, session *s, run_output *output)
 {
-    rlf_pipeline_set_orbit(s->pipeline, &o->orbit);
-    rlf_pipeline_set_legend(s->pipeline, o->shows_legend);
-    rlf_result result = rlf_pipeline_set_views(s->pipeline, o->views, o->view_count);
+    const int32_t camera = o->session.drawn_camera;
+    if (camera > s->cameras.count) {
+        return rlf_fail(RLF_ERROR_INVALID, "--view: there is no camera %d: %s has %d", (int)camera,
+                        o->session.source, (int)s->cameras.count);
+    }
+    rlf_pipeline *drawn = camera > 1 ? s->cameras.pipelines[camera - 1] : s->pipeline;
+    rlf_pipeline_set_orbit(drawn, &o->orbit);
+    rlf_pipeline_set_legend(drawn, o->shows_legend);
+    rlf_result result = rlf_pipeline_set_views(drawn, o->views, o->view_count);
     if (result != RLF_OK) {
         return result;
+    }
+    if (camera > 1 && !o->is_headless) {
+        return rlf_fail(RLF_ERROR_UNSUPPORTED,
+                        "--view: the window shows the first camera; add --headless for camera %d",
+                        (int)camera);
     }
     if (o->is_headless) {
         choose_headless_renderer(o, s);

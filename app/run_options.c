@@ -62,7 +62,8 @@ static void print_view_help(void)
         "                        background, velocity, thickness, reason, points, contacts,\n"
         "                        known, hands, map, bodies;\n"
         "                        up to four of them side by side; key legend: what their\n"
-        "                        colours mean, with units, in the picture ('depth?legend')\n"
+        "                        colours mean, with units, in the picture ('depth?legend');\n"
+        "                        key camera: another one of a list ('depth?camera=2')\n"
         "  --orbit YAW,PITCH[,ZOOM]   where points and map are seen from: degrees to the\n"
         "                        right and up, and the distance, 1 being the camera's\n"
         "  --light NAME          auto: bodies as dark and as tinted as the camera's picture, and\n"
@@ -418,7 +419,11 @@ static const char *const *view_names(void)
 static int read_options(int argc, char **argv, run_options *o)
 {
     const option_def window_keys[] = WINDOW_KEYS(o);
-    const option_def view_keys[] = {ROW_FLAG("legend", &o->shows_legend), {0}};
+    const option_def view_keys[] = {
+        ROW_FLAG("legend", &o->shows_legend),
+        ROW_INT32("camera", &o->session.drawn_camera, 1, RLF_WORLD_CAMERAS_MAX),
+        {0},
+    };
     const option_def picture_keys[] = PICTURE_KEYS(&o->output);
     const option_def record_keys[] = {
         ROW_FLAG("bodies", &o->session.record.keeps_bodies),

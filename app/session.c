@@ -130,7 +130,7 @@ static rlf_result create_pipeline(const session_options *options, session *s)
     s->reconstruct = def.reconstruct;
     rlf_result result = rlf_pipeline_create(&def, &s->pipeline);
     if (result == RLF_OK) {
-        result = session_cameras_join(&s->cameras, s->pipeline);
+        result = session_cameras_join(&s->cameras, s->pipeline, options->drawn_camera);
     }
     if (result == RLF_OK) {
         result = set_projector(options->projector_path, s->pipeline);

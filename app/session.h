@@ -32,6 +32,7 @@ typedef struct session_options {
     bool is_played;          /* by a playback, with this after the end */
     rlf_playback_end end;
     bool enable_render;
+    int32_t drawn_camera; /* of a list, whose picture is made, too: 1 is the first; 0 = none */
     bool enable_hands, enable_grab;
     rlf_camera_mode camera; /* default fixed */
     bool is_camera_set;     /* by the user */

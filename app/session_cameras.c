@@ -29,12 +29,13 @@ rlf_result session_cameras_open(session_cameras *cameras, const session_options 
     return result;
 }
 
-rlf_result session_cameras_join(session_cameras *cameras, rlf_pipeline *first)
+rlf_result session_cameras_join(session_cameras *cameras, rlf_pipeline *first, int32_t drawn)
 {
     rlf_result result = RLF_OK;
     for (int32_t k = 1; k < cameras->count && result == RLF_OK; k++) {
-        const rlf_pipeline_def def = rlf_pipeline_def_joining(first, cameras->sources[k],
-                                                              &cameras->places[k].T_world_camera);
+        rlf_pipeline_def def = rlf_pipeline_def_joining(first, cameras->sources[k],
+                                                        &cameras->places[k].T_world_camera);
+        def.enable_render = k + 1 == drawn;
         result = rlf_pipeline_create(&def, &cameras->pipelines[k]);
     }
     if (result != RLF_OK) {

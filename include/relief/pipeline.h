@@ -153,8 +153,8 @@ typedef struct rlf_pipeline_output {
 typedef struct rlf_pipeline rlf_pipeline;
 
 /* Settings of a camera that joins the world of `first`, see rlf_pipeline_def.joins: it stands at
- * T_world_camera, and the rules for its surface are those of the first one. It makes no picture
- * unless enable_render is set. */
+ * T_world_camera, and the rules for its surface and its picture are those of the first one, but for
+ * the light's direction. It makes no picture unless enable_render is set. */
 RLF_API rlf_pipeline_def rlf_pipeline_def_joining(rlf_pipeline *first, rlf_source *source,
                                                   const rlf_pose *T_world_camera);
 

@@ -97,6 +97,9 @@ rlf_pipeline_def rlf_pipeline_def_joining(rlf_pipeline *first, rlf_source *sourc
     def.reconstruct.rig = own.rig;
     def.reconstruct.depth_min_m = own.depth_min_m;
     def.reconstruct.depth_max_m = own.depth_max_m;
+    def.compositor = first->def.compositor;
+    def.compositor.rig = own.rig;
+    def.compositor.light_direction = rlf_compositor_def_default().light_direction;
     def.joins = first;
     def.T_world_camera = *T_world_camera;
     def.enable_render = false;

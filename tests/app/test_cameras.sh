@@ -63,6 +63,11 @@ for list in two pairs ends; do
         fail "bodies' mean height: $(last one) by one camera, $(last $list) by $list.json"
 done
 echo "mean height: $(last one) by one camera, $(last two) by two, $(last ends) by one that ends"
+"$relief" run two.json --headless --quiet --frames 3 --view 'camera?camera=2' --pictures second ||
+    fail "the second camera's picture"
+[ -s second/000002.png ] || fail "no picture of the second camera: $(ls second)"
+"$relief" run two.json --headless --quiet --frames 3 --view 'camera?camera=3' 2>stderr.txt && fail "a third camera of two"
+grep -q 'there is no camera 3: two.json has 2' stderr.txt || fail "camera 3: $(cat stderr.txt)"
 "$relief" run two.json --camera moving --headless --frames 1 --quiet 2>stderr.txt && fail "cameras of a list moved"
 grep -q 'leave out --camera' stderr.txt || fail "--camera moving: $(cat stderr.txt)"
 
