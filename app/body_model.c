@@ -1,5 +1,5 @@
 /* Model files as bodies to throw: a hull around each. */
-#include "body_model.h"
+#include "run_window.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* What a shell offers behind the cursor, from the tables of the options and their help. */
 #define _POSIX_C_SOURCE 200809L
-#include "complete.h"
+#include "dispatch.h"
 
 #include "command.h"
 #include "options.h"

@@ -2,7 +2,6 @@
 #include "dispatch.h"
 
 #include "command.h"
-#include "complete.h"
 #include "parts.h"
 
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* The log of a kiosk, and its first look for the camera. */
 #define _POSIX_C_SOURCE 200809L
-#include "kiosk.h"
+#include "run_window.h"
 
 #include "command.h"
 #include "relief/io.h"

@@ -1,9 +1,8 @@
 /* Recordings that were shown lately. */
 #define _XOPEN_SOURCE 700
-#include "recent.h"
+#include "state_folder.h"
 
 #include "picture_file.h"
-#include "state_folder.h"
 
 #include <stdio.h>
 #include <stdlib.h>

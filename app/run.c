@@ -1,13 +1,10 @@
 /* `relief run`: frames through the whole pipeline, in a window or headless. */
 #include "command.h"
-#include "kiosk.h"
+#include "run_window.h"
 #include "parts.h"
 #include "run.h"
 #ifdef RLF_HAVE_GL
 #include "relief/gl.h"
-#endif
-#ifdef RLF_HAVE_VIEWER
-#include "window_choices.h"
 #endif
 
 #include <stdio.h>

@@ -1,11 +1,9 @@
 /* The window of `relief run`: what its user may open, save and record. */
 #include "run.h"
 
-#include "body_model.h"
+#include "run_window.h"
 #include "command.h"
-#include "recent.h"
 #include "state_folder.h"
-#include "window_choices.h"
 #include "relief/window.h"
 
 #include <stdio.h>

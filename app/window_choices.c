@@ -1,9 +1,9 @@
 /* What the window offers to open. */
 #define _XOPEN_SOURCE 700
-#include "window_choices.h"
+#include "run_window.h"
 
 #include "command.h"
-#include "recent.h"
+#include "state_folder.h"
 #include "relief/io.h"
 #include "scene_files.h"
 

@@ -1,6 +1,6 @@
 /* Vector squares, so that a printer draws their edges as sharp as it can. The page is made once as
  * a list of drawing commands in millimetres from the top left, and written in either format. */
-#include "calibrate/board.h"
+#include "calibrate/calibrate.h"
 
 #include "relief/io.h"
 

@@ -1,10 +1,12 @@
-/* `relief calibrate`: what is asked for, and what comes out. */
+/* `relief calibrate`: what is asked for, what comes out, and what is made of it. */
 #ifndef RELIEF_APP_CALIBRATE_CALIBRATE_H
 #define RELIEF_APP_CALIBRATE_CALIBRATE_H
 
-#include "calibrate/find.h"
 #include "calibrate/solve.h"
 #include "relief/frame.h"
+#include "relief/reconstruct.h"
+
+#include <stdio.h>
 
 typedef struct calibrate_options {
     calibrate_board board;
@@ -60,5 +62,87 @@ rlf_result calibrate_report(const calibrate_options *options, const calibration 
 void calibrate_print(const calibration *c);
 /* Only the views that are left out, and why. */
 void calibrate_print_views(const calibrate_views *views);
+
+/* ---- outline.c: the outline of a board in a depth picture: the thesis's way to calibrate a depth
+ * camera that gives no infrared pictures */
+
+/* Looks for the four corners of a board of size[0] x size[1] metres, which is near T_camera_board,
+ * in `depth` (metres, 0 = missing, rig->depth's size). Each side is a line through the places where
+ * the board's plane ends. out: left top, right top, left bottom, right bottom, as pixels of a
+ * camera with the same f and c and no distortion; out_sigma: how far the places are from their
+ * lines, pixels. False when a side is not to be seen. */
+bool calibrate_outline(const rlf_rig *rig, const rlf_pose *T_camera_board, const double size[2],
+                       const float *depth, double out[4][2], double *out_sigma);
+
+/* ---- depth_offset.c: the constant by which a camera measures too far, from boards whose pose is
+ * known */
+
+/* Median over the board's pixels of measured depth minus that of its plane, metres; NAN where less
+ * than half of the lattice has depth or it is not all in the picture. `depth` is the first camera's
+ * picture, metres, 0 = missing. */
+double depth_offset_on(const calibrate_view *view, const calibrate_board *board,
+                       const rlf_camera *camera, const float *depth);
+/* Mean of the views' offsets and its standard deviation into the calibration. */
+void depth_offset_combine(calibration *c);
+
+/* ---- folder_depth.c: depth pictures that belong to the infrared pictures of a folder */
+
+/* Reads the 16-bit PNG of each view, found by its number, and measures the depth offset. */
+rlf_result calibrate_folder_depth(const calibrate_options *options, calibration *c);
+
+/* ---- check.c: `relief calibrate --check`: does a calibration still hold, and how does the camera
+ * stand */
+
+#define CALIBRATE_STAND_BINS 400 /* 2 cm each: 8 m below the camera */
+
+/* What frames say about up and about level faces; all 0 to begin with. */
+typedef struct calibrate_stand {
+    int32_t frames, sure;
+    rlf_vec3 up; /* sum over the frames that are sure, or of guesses while none is */
+    int64_t level, count[CALIBRATE_STAND_BINS];
+    double below_m[CALIBRATE_STAND_BINS]; /* sums */
+} calibrate_stand;
+
+void calibrate_stand_add(calibrate_stand *s, const rlf_surface *surface);
+/* How far the floor's plane is below the camera, metres; false = no floor is seen. */
+bool calibrate_stand_floor(const calibrate_stand *s, double *out_below_m);
+
+/* Measures a source and prints it. */
+rlf_result calibrate_check(const char *name, bool *out_is_stale);
+/* The same of a list of cameras (docs/several-cameras.md): whether the surfaces that they share lie
+ * on each other. Writes the list with poses by the room to out_path; NULL = only prints. */
+rlf_result calibrate_check_cameras(const char *list, const char *out_path, bool *out_is_off);
+
+/* ---- board.c: a chessboard to print, and what a printed board's file says of it */
+
+/* Inner corners and the side of a square. */
+typedef struct board_size {
+    int32_t columns, rows;
+    double square_m; /* 0 = not said */
+} board_size;
+
+/* Writes a page with the board in its middle, a line about its size and a ruler of 100 mm: PDF, or
+ * SVG where the path ends with .svg. On A4 or Letter, upright or across as it fits. */
+rlf_result board_print(const char *path, const board_size *board, bool is_letter);
+/* Finds what board_print wrote about the board. */
+rlf_result board_read(const char *path, board_size *out);
+
+/* ---- svg.c: plots of a calibration as SVG inside a page */
+
+/* Where one camera's picture has corners; empty cells are shaded. */
+void svg_coverage(FILE *out, const calibration *c, int camera);
+/* Each corner's error as a line, many times as long; and all errors about one point. */
+void svg_residuals(FILE *out, const calibration *c, int camera);
+void svg_scatter(FILE *out, const calibration *c, int camera);
+/* Which way the boards faced: the tilt of each in degrees to the right and down. */
+void svg_tilts(FILE *out, const calibration *c);
+
+/* ---- report_pictures.c: pictures of a calibration's report: before it and after it */
+
+/* Writes DIR/before.png and DIR/after.png: of folders a pair as it is and rectified, with level
+ * lines; of a source its colour picture with the edges of depth in red. *out_count: how many were
+ * written, 0 or 2. */
+rlf_result calibrate_report_pictures(const calibrate_options *options, const calibration *c,
+                                     int *out_count);
 
 #endif

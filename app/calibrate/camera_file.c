@@ -1,6 +1,5 @@
 /* The calibration as camera.json (docs/formats.md), or in another program's format. */
 #include "calibrate/calibrate.h"
-#include "calibrate/judge.h"
 #include "relief/io.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* Whether a calibration still holds, by any room and without a board: depth's edges in colour; and
  * how the camera stands, by the room's floor. */
-#include "calibrate/check.h"
+#include "calibrate/calibrate.h"
 
 #include "command.h"
 #include "info/info.h"

@@ -1,7 +1,7 @@
 /* Whether cameras of one room stand where their list says: the first one's surfaces are fused, and
  * each other camera's are aligned with them, point to plane. */
 #define _XOPEN_SOURCE 700 /* realpath */
-#include "calibrate/check.h"
+#include "calibrate/calibrate.h"
 
 #include "command.h"
 #include "json_file.h"

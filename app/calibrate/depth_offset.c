@@ -1,8 +1,6 @@
 /* On each board: what depth says minus where the plane through the corners is (as iai_kinect2 has
  * it). The pixel's own ray is used, so a slanted board is as good as a frontal one. */
-#include "calibrate/depth_offset.h"
-
-#include "calibrate/quality.h"
+#include "calibrate/calibrate.h"
 
 #include <math.h>
 #include <stddef.h>

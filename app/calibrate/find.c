@@ -1,5 +1,5 @@
 /* Pictures as grey, and the board in them. */
-#include "calibrate/find.h"
+#include "calibrate/views.h"
 
 #include "relief/io.h"
 

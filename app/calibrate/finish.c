@@ -1,8 +1,5 @@
 /* From views to a calibration: doubles and outliers out, all others in one optimisation, judged. */
 #include "calibrate/calibrate.h"
-#include "calibrate/judge.h"
-#include "calibrate/quality.h"
-#include "calibrate/seed.h"
 
 #include <math.h>
 #include <stdio.h>

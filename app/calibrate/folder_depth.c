@@ -1,8 +1,5 @@
 /* Depth offset from a folder of depth pictures. */
-#include "calibrate/folder_depth.h"
-
-#include "calibrate/depth_offset.h"
-#include "calibrate/picture_list.h"
+#include "calibrate/calibrate.h"
 
 #include "relief/io.h"
 

@@ -1,8 +1,5 @@
 /* Views from folders of pictures. */
 #include "calibrate/calibrate.h"
-#include "calibrate/find.h"
-#include "calibrate/folder_depth.h"
-#include "calibrate/picture_list.h"
 #include "command.h"
 
 #include "relief/io.h"

@@ -1,5 +1,5 @@
 /* Refusals, each with what to do about it. */
-#include "calibrate/judge.h"
+#include "calibrate/solve.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* Cholesky's inverse. */
-#include "calibrate/linear.h"
+#include "calibrate/solve.h"
 
 #include <math.h>
 

@@ -1,7 +1,5 @@
 /* `relief calibrate`: lenses and the motion between the cameras, from pictures of a chessboard. */
-#include "calibrate/board.h"
 #include "calibrate/calibrate.h"
-#include "calibrate/check.h"
 #include "calibrate/opencv/opencv.h"
 #include "command.h"
 #include "options.h"

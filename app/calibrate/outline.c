@@ -1,5 +1,5 @@
 /* Depth steps along the board's sides, a line through each side's, corners where lines meet. */
-#include "calibrate/outline.h"
+#include "calibrate/calibrate.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
 /* Still and different poses. No lens is known yet: tilt shows as one side longer than the other. */
-#include "calibrate/picker.h"
+#include "calibrate/solve.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* Folders of pictures, paired by the numbers in their names. */
 #define _POSIX_C_SOURCE 200809L /* scandir */
-#include "calibrate/picture_list.h"
+#include "calibrate/views.h"
 
 #include <ctype.h>
 #include <dirent.h>

@@ -1,6 +1,5 @@
 /* The result as text. */
 #include "calibrate/calibrate.h"
-#include "calibrate/judge.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* Leave-one-out error, epipolar error, and the uncertainty of the map from depth to colour. */
-#include "calibrate/quality.h"
+#include "calibrate/solve.h"
 
 #include <math.h>
 #include <stdlib.h>

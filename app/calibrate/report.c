@@ -1,9 +1,6 @@
 /* The report: one page with figures, plots and pictures; it loads nothing from elsewhere. */
 #define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include "calibrate/calibrate.h"
-#include "calibrate/judge.h"
-#include "calibrate/report_pictures.h"
-#include "calibrate/svg.h"
 
 #include "relief/io.h"
 

@@ -1,9 +1,7 @@
 /* Rectified pairs (both pictures turned until points lie on one level line) and depth's edges drawn
  * into colour. */
-#include "calibrate/report_pictures.h"
+#include "calibrate/calibrate.h"
 
-#include "calibrate/picture_list.h"
-#include "calibrate/quality.h"
 #include "info/info.h"
 #include "relief/io.h"
 

@@ -1,5 +1,5 @@
 /* Calls of OpenCV's calibration, and the one motion that the views agree on. */
-#include "calibrate/seed.h"
+#include "calibrate/solve.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* Projection with Brown-Conrady distortion and its analytic derivatives. rlf_camera_project refuses
  * rays beyond the lens model; an optimiser on its way must not meet such walls, so it has its own.
  */
-#include "calibrate/sight_model.h"
+#include "calibrate/solve.h"
 
 #define BEHIND_PX 1e4 /* error of what is behind the camera */
 

@@ -2,9 +2,6 @@
  * complement), so that the time grows with the number of views and not with its cube. */
 #include "calibrate/solve.h"
 
-#include "calibrate/linear.h"
-#include "calibrate/sight_model.h"
-
 #include <math.h>
 #include <string.h>
 

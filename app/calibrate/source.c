@@ -1,11 +1,6 @@
 /* Views from a recording or a camera: colour by the board's corners; depth, which has no infrared
  * picture here, by the board's outline, or kept as the source says. */
 #include "calibrate/calibrate.h"
-#include "calibrate/depth_offset.h"
-#include "calibrate/find.h"
-#include "calibrate/outline.h"
-#include "calibrate/picker.h"
-#include "calibrate/seed.h"
 #include "command.h"
 #include "info/info.h"
 

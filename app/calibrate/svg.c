@@ -1,7 +1,5 @@
 /* Coverage, residuals and tilts. Coordinates are pixels of the camera, scaled by the viewBox. */
-#include "calibrate/svg.h"
-
-#include "calibrate/judge.h"
+#include "calibrate/calibrate.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 /* The list of recordings shown lately. */
 #define _XOPEN_SOURCE 700
 #include "io_support.h"
-#include "recent.h"
+#include "state_folder.h"
 #include "test.h"
 
 static void the_newest_recordings_come_first(void **state)

@@ -1,11 +1,6 @@
 /* `relief calibrate` on boards that the test draws, with cameras that it knows. */
 #include "board_scene.h"
-#include "calibrate/board.h"
 #include "calibrate/calibrate.h"
-#include "calibrate/check.h"
-#include "calibrate/judge.h"
-#include "calibrate/quality.h"
-#include "calibrate/seed.h"
 #include "eval/analytic.h"
 #include "relief/io.h"
 

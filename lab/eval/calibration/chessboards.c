@@ -2,7 +2,6 @@
 #include "eval/calibration/calibration.h"
 
 #include "calibrate/calibrate.h"
-#include "calibrate/seed.h"
 
 #include <math.h>
 #include <stdio.h>

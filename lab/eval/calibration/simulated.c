@@ -2,8 +2,7 @@
  * by up to 40 degrees, corners found to 0.1 px, the outline's corners in depth to 1 px. */
 #include "eval/calibration/calibration.h"
 
-#include "calibrate/quality.h"
-#include "calibrate/seed.h"
+#include "calibrate/solve.h"
 #include "eval/analytic.h"
 
 #include <math.h>
