@@ -1,6 +1,6 @@
-/* Reads a video source of PipeWire as a desktop program does: pipewire_reader FRAMES FILE. Waits at
- * most ten seconds for so many pictures and writes the last one, BGRx, to FILE. Its node is called
- * reader. */
+/* Reads a video source of PipeWire as a desktop program does: pipewire_reader FRAMES FILE [alpha].
+ * Waits at most ten seconds for so many pictures and writes the last one, BGRx or BGRA, to FILE.
+ * Its node is called reader. */
 #include <pipewire/pipewire.h>
 #include <spa/param/video/format-utils.h>
 
@@ -54,7 +54,7 @@ static const struct pw_stream_events events = {.version = PW_VERSION_STREAM_EVEN
 
 int main(int argc, char **argv)
 {
-    if (argc != 3) {
+    if (argc != 3 && argc != 4) {
         return 2;
     }
     reader r = {.wanted = atoi(argv[1]), .path = argv[2], .status = 1};
@@ -71,11 +71,11 @@ int main(int argc, char **argv)
                              &events, &r);
     uint8_t memory[1024];
     struct spa_pod_builder builder = SPA_POD_BUILDER_INIT(memory, sizeof(memory));
-    const struct spa_pod *params[1] = {
-        spa_pod_builder_add_object(&builder, SPA_TYPE_OBJECT_Format, SPA_PARAM_EnumFormat,
-                                   SPA_FORMAT_mediaType, SPA_POD_Id(SPA_MEDIA_TYPE_video),
-                                   SPA_FORMAT_mediaSubtype, SPA_POD_Id(SPA_MEDIA_SUBTYPE_raw),
-                                   SPA_FORMAT_VIDEO_format, SPA_POD_Id(SPA_VIDEO_FORMAT_BGRx))};
+    const struct spa_pod *params[1] = {spa_pod_builder_add_object(
+        &builder, SPA_TYPE_OBJECT_Format, SPA_PARAM_EnumFormat, SPA_FORMAT_mediaType,
+        SPA_POD_Id(SPA_MEDIA_TYPE_video), SPA_FORMAT_mediaSubtype,
+        SPA_POD_Id(SPA_MEDIA_SUBTYPE_raw), SPA_FORMAT_VIDEO_format,
+        SPA_POD_Id(argc == 4 ? SPA_VIDEO_FORMAT_BGRA : SPA_VIDEO_FORMAT_BGRx))};
     if (pw_stream_connect(r.stream, PW_DIRECTION_INPUT, PW_ID_ANY, PW_STREAM_FLAG_MAP_BUFFERS,
                           params, 1) == 0) {
         pw_main_loop_run(r.loop);

@@ -36,22 +36,34 @@ while [ ! -S "$work/run/pipewire-0" ] && [ $tries -lt 50 ]; do
     tries=$((tries + 1))
 done
 
-"$relief" run "synthetic:empty?color=320x180" --headless --quiet --frames 400 \
-    --video pipewire:Relief --pictures 'pictures?at=399' &
-source=$!
-"$reader" 30 last.bgrx &
-reading=$!
-tries=0
-until pw-link Relief:capture_1 reader:input_1 >/dev/null 2>&1 ||
-    pw-link Relief reader >/dev/null 2>&1 || [ $tries -ge 50 ]; do
-    sleep 0.1
-    tries=$((tries + 1))
-done
-wait $reading
-kill $source 2>/dev/null || true
-wait $source || true
+# watch FILE VIEW [alpha]: what a reader gets of a view.
+watch() {
+    "$relief" run "synthetic:empty?color=320x180" --headless --quiet --frames 400 --scene float --view "$2" \
+        --video pipewire:Relief &
+    source=$!
+    "$reader" 30 "$1" ${3:+"$3"} &
+    reading=$!
+    tries=0
+    until pw-link Relief:capture_1 reader:input_1 >/dev/null 2>&1 ||
+        pw-link Relief reader >/dev/null 2>&1 || [ $tries -ge 50 ]; do
+        sleep 0.1
+        tries=$((tries + 1))
+    done
+    wait $reading
+    kill $source 2>/dev/null || true
+    wait $source || true
+}
+
+watch last.bgrx camera
 [ "$(wc -c <last.bgrx)" -eq $((320 * 180 * 4)) ]
 # The empty room is not black, and the fourth byte of every pixel is 255.
 LC_ALL=C od -An -v -t u1 -w4 last.bgrx |
     awk '{ sum += $1 + $2 + $3; if ($4 != 255) bad++ }
         END { if (bad || sum / NR < 60) { print "pipewire: no picture"; exit 1 } }'
+
+# A mixer gets the bodies alone, with alpha, on nothing.
+watch bodies.bgra bodies alpha
+[ "$(wc -c <bodies.bgra)" -eq $((320 * 180 * 4)) ]
+LC_ALL=C od -An -v -t u1 -w4 bodies.bgra |
+    awk '$4 == 0 { none++; if ($1 + $2 + $3 > 0) bad++ } $4 == 255 { whole++ }
+        END { if (bad || whole < 200 || none < NR / 2) { print "pipewire: alpha: " whole, none, bad; exit 1 } }'

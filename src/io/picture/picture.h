@@ -114,6 +114,8 @@ typedef struct io_png_def {
     int32_t level; /* of zlib, 1..9 */
 } io_png_def;
 
+/* Divides the colours of RGBA or BGRA pixels by the alpha that was multiplied into them. */
+void io_rgba_straighten(uint8_t *rgba, size_t pixels);
 /* Appends the file. On failure the buffer is as it was. */
 rlf_result io_png_encode(const io_png_def *def, io_byte_buffer *out);
 

@@ -43,18 +43,23 @@ static void flush_bytes(png_structp png)
     (void)png;
 }
 
-/* libpng's own copy of a row: divides colours by their alpha, to the nearest. */
-static void straighten(png_structp png, png_row_infop row, png_bytep data)
+void io_rgba_straighten(uint8_t *rgba, size_t pixels)
 {
-    (void)png;
-    for (png_uint_32 i = 0; i < row->width; i++) {
-        uint8_t *pixel = data + 4 * (size_t)i;
+    for (size_t i = 0; i < pixels; i++) {
+        uint8_t *pixel = rgba + 4 * i;
         const int32_t alpha = pixel[3];
         for (int c = 0; c < 3 && alpha > 0 && alpha < 255; c++) {
             const int32_t color = (255 * pixel[c] + alpha / 2) / alpha;
             pixel[c] = (uint8_t)(color < 255 ? color : 255);
         }
     }
+}
+
+/* libpng's own copy of a row. */
+static void straighten(png_structp png, png_row_infop row, png_bytep data)
+{
+    (void)png;
+    io_rgba_straighten(data, row->width);
 }
 
 static void encode(writer *w)

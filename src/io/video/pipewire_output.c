@@ -3,6 +3,8 @@
 #define _POSIX_C_SOURCE 200809L
 #include "io/video/video.h"
 
+#include "io/picture/picture.h"
+
 #include <pipewire/pipewire.h>
 #include <spa/param/video/format-utils.h>
 
@@ -16,7 +18,8 @@ typedef struct pipewire_output {
     struct pw_thread_loop *loop;
     struct pw_stream *stream;
     struct spa_hook listener;
-    uint8_t *picture; /* BGRx, width x height; under the loop's lock */
+    uint8_t *picture; /* BGRx or BGRA, width x height; under the loop's lock */
+    bool has_alpha;   /* the reader asks for BGRA, whose colours are not multiplied by alpha */
     enum pw_stream_state state;
     char error[256];
 } pipewire_output;
@@ -44,9 +47,13 @@ static void on_state(void *self, enum pw_stream_state old, enum pw_stream_state 
 static void on_param(void *self, uint32_t id, const struct spa_pod *param)
 {
     pipewire_output *o = self;
+    struct spa_video_info_raw format;
     if (param == NULL || id != SPA_PARAM_Format) {
         return;
     }
+    memset(&format, 0, sizeof(format));
+    o->has_alpha =
+        spa_format_video_raw_parse(param, &format) >= 0 && format.format == SPA_VIDEO_FORMAT_BGRA;
     uint8_t memory[512];
     struct spa_pod_builder builder = SPA_POD_BUILDER_INIT(memory, sizeof(memory));
     const struct spa_pod *params[1] = {spa_pod_builder_add_object(
@@ -83,17 +90,27 @@ static const struct pw_stream_events events = {
     .process = on_process,
 };
 
+/* BGRx for who wants a picture, BGRA for a mixer that lays it over its own. */
+static const struct spa_pod *offer(const pipewire_output *o, io_rate rate,
+                                   struct spa_pod_builder *builder)
+{
+    const struct spa_rectangle size = {(uint32_t)o->width, (uint32_t)o->height};
+    const struct spa_fraction pace = {(uint32_t)rate.numerator, (uint32_t)rate.denominator};
+    return spa_pod_builder_add_object(
+        builder, SPA_TYPE_OBJECT_Format, SPA_PARAM_EnumFormat, SPA_FORMAT_mediaType,
+        SPA_POD_Id(SPA_MEDIA_TYPE_video), SPA_FORMAT_mediaSubtype,
+        SPA_POD_Id(SPA_MEDIA_SUBTYPE_raw), SPA_FORMAT_VIDEO_format,
+        SPA_POD_CHOICE_ENUM_Id(3, SPA_VIDEO_FORMAT_BGRx, SPA_VIDEO_FORMAT_BGRx,
+                               SPA_VIDEO_FORMAT_BGRA),
+        SPA_FORMAT_VIDEO_size, SPA_POD_Rectangle(&size), SPA_FORMAT_VIDEO_framerate,
+        SPA_POD_Fraction(&pace));
+}
+
 static rlf_result connect_stream(pipewire_output *o, io_rate rate)
 {
     uint8_t memory[1024];
     struct spa_pod_builder builder = SPA_POD_BUILDER_INIT(memory, sizeof(memory));
-    struct spa_video_info_raw format;
-    memset(&format, 0, sizeof(format));
-    format.format = SPA_VIDEO_FORMAT_BGRx;
-    format.size = SPA_RECTANGLE((uint32_t)o->width, (uint32_t)o->height);
-    format.framerate = SPA_FRACTION((uint32_t)rate.numerator, (uint32_t)rate.denominator);
-    const struct spa_pod *params[1] = {
-        spa_format_video_raw_build(&builder, SPA_PARAM_EnumFormat, &format)};
+    const struct spa_pod *params[1] = {offer(o, rate, &builder)};
     int code = pw_stream_connect(o->stream, PW_DIRECTION_OUTPUT, PW_ID_ANY,
                                  PW_STREAM_FLAG_DRIVER | PW_STREAM_FLAG_MAP_BUFFERS, params, 1);
     if (code < 0) {
@@ -155,8 +172,11 @@ static rlf_result pipewire_write(void *self, const io_yuv *yuv, const rlf_image_
             to[x * 4] = from[x * 4 + 2];
             to[x * 4 + 1] = from[x * 4 + 1];
             to[x * 4 + 2] = from[x * 4];
-            to[x * 4 + 3] = 255;
+            to[x * 4 + 3] = o->has_alpha ? from[x * 4 + 3] : 255;
         }
+    }
+    if (o->has_alpha) {
+        io_rgba_straighten(o->picture, (size_t)o->width * (size_t)o->height);
     }
     const bool has_failed = o->state == PW_STREAM_STATE_ERROR;
     if (o->state == PW_STREAM_STATE_STREAMING && pw_stream_is_driving(o->stream)) {
