@@ -162,15 +162,24 @@ static rlf_result align(aligner *a, rlf_pose start, rlf_track_result *best)
     return result;
 }
 
+/* A room is predicted for pictures no larger than those that it was made of. */
+static int32_t shrink_of(const rlf_camera *camera, const rlf_camera *first)
+{
+    int32_t factor = 1;
+    while (camera->width / factor > first->width || camera->height / factor > first->height) {
+        factor++;
+    }
+    return factor;
+}
+
 static rlf_result find_place(rlf_map *room, const rlf_rig *first_rig, eye *e, const rlf_rig *rig,
                              camera_check *out)
 {
     rlf_tracker_def def = rlf_tracker_def_default();
     def.rig = *rig;
-    const bool is_larger =
-        rig->depth.width > first_rig->depth.width || rig->depth.height > first_rig->depth.height;
     aligner a = {.room = room,
-                 .camera = is_larger ? rlf_camera_decimate(&rig->depth, 4) : rig->depth,
+                 .camera =
+                     rlf_camera_decimate(&rig->depth, shrink_of(&rig->depth, &first_rig->depth)),
                  .shared = rlf_alloc((size_t)rig->depth.width * (size_t)rig->depth.height)};
     rlf_track_result found = {.T_world_camera = out->T_world_camera};
     rlf_result result = a.shared != NULL ? rlf_tracker_create(&def, &a.tracker) : RLF_ERROR_MEMORY;
@@ -261,6 +270,10 @@ rlf_result calibrate_check_cameras(const char *list, const char *out_path, bool 
     rlf_rig first_rig;
     rlf_result result = rlf_cameras_load(list, cameras, &count);
     *out_is_off = false;
+    if (result == RLF_OK && count < 2) {
+        result = rlf_fail(RLF_ERROR_INVALID,
+                          "%s: lists one camera: there is none to compare it with", list);
+    }
     if (result == RLF_OK && out_path != NULL) {
         result = rlf_file_check(out_path);
     }

@@ -113,6 +113,8 @@ cat stdout.txt
 "$relief" calibrate --check opposite.json --out kept.json >stdout.txt 2>stderr.txt || fail "opposite: $(cat stderr.txt)"
 grep -q 'camera 1  cannot be told' stdout.txt || fail "cameras that see too little of the same: $(cat stdout.txt)"
 grep -A3 position kept.json | tr -d ' \n' | grep -q '0.0,0.0,5.0' || fail "kept.json: $(cat kept.json)"
+"$relief" calibrate --check one.json 2>stderr.txt && fail "one camera was checked"
+grep -q 'one.json: lists one camera' stderr.txt || fail "one camera: $(cat stderr.txt)"
 "$relief" calibrate --check synthetic:empty --out no.json >stdout.txt 2>stderr.txt && fail "--out of one camera"
 
 [ "$failures" -eq 0 ] || exit 1
