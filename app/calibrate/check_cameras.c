@@ -18,19 +18,23 @@
 #define DEGREES (180.0 / RLF_PI)
 #define FRAMES 20       /* of each camera: noise is averaged, and who walks by does not count */
 #define ROUNDS 20       /* of an alignment: a way that little determines is gone slowly */
-#define STARTS 2        /* more to each side, */
+#define STARTS 5        /* more to each side, */
 #define START_M 0.03    /* so far apart */
 #define VOXEL_M 0.01    /* of the first one's room */
 #define REACH_M 3.0     /* where a turn of the camera counts as much as a shift of it */
 #define SHARED_MIN 0.05 /* of a camera's pixels must show what the first one sees, too */
 #define MEMORY_MB 512
-#define OFF_M 0.02 /* surfaces of two cameras that lie further apart are two */
+#define FAR_M 0.3        /* more than the room can correct: what it finds there is another place */
+#define OVERLAP_MIN 0.85 /* of what both see lies on each other once the pose is right */
+#define OFF_M 0.02       /* surfaces of two cameras that lie further apart are two */
 
 /* How far a camera is from where its list says. */
 typedef struct camera_check {
     rlf_pose T_world_camera; /* as found; as listed where nothing is known */
     bool is_enough;          /* of what the first one sees, too */
     bool is_known;           /* and that determines the pose in all ways */
+    bool is_far;             /* no pose near the list's fits */
+    double overlap;          /* share of those that lie on each other, 0..1 */
     double shared;           /* of its pixels show what the first one sees, 0..1 */
     double shift_m, turn;    /* from the list's pose; radians */
 } camera_check;
@@ -191,6 +195,7 @@ static rlf_result find_place(rlf_map *room, const rlf_rig *first_rig, eye *e, co
         result = align(&a, out->T_world_camera, &found);
     }
     out->shared = a.share;
+    out->overlap = found.overlap;
     out->is_enough = found.health != RLF_TRACK_LOST && a.share >= SHARED_MIN;
     out->is_known = out->is_enough && found.health == RLF_TRACK_GOOD;
     if (out->is_known) {
@@ -199,6 +204,20 @@ static rlf_result find_place(rlf_map *room, const rlf_rig *first_rig, eye *e, co
     rlf_free(a.shared);
     rlf_tracker_destroy(&a.tracker);
     return result == RLF_END ? RLF_OK : result;
+}
+
+/* How far the found pose is from the list's. Of one that is far away nothing is believed. */
+static void compare(const rlf_pose *listed, camera_check *c)
+{
+    const rlf_pose T_listed_world = rlf_pose_invert(listed);
+    const rlf_pose moved = rlf_pose_mul(&T_listed_world, &c->T_world_camera);
+    const rlf_vec3 axis = {moved.q.x, moved.q.y, moved.q.z};
+    c->shift_m = rlf_length(moved.p);
+    c->turn = 2.0 * rlf_atan2(rlf_length(axis), fabs(moved.q.w));
+    c->is_far = c->is_known && (c->overlap < OVERLAP_MIN || c->shift_m + REACH_M * c->turn > FAR_M);
+    if (c->is_far) {
+        c->T_world_camera = *listed;
+    }
 }
 
 static rlf_result check_one(const rlf_placed_camera *camera, rlf_map *room,
@@ -210,22 +229,24 @@ static rlf_result check_one(const rlf_placed_camera *camera, rlf_map *room,
     rlf_result result = open_eye(camera->source, &rig, &e);
     result = result == RLF_OK ? find_place(room, first_rig, &e, &rig, out) : result;
     close_eye(&e);
-    const rlf_pose listed = rlf_pose_invert(&camera->T_world_camera);
-    const rlf_pose moved = rlf_pose_mul(&listed, &out->T_world_camera);
-    const rlf_vec3 axis = {moved.q.x, moved.q.y, moved.q.z};
-    out->shift_m = rlf_length(moved.p);
-    out->turn = 2.0 * rlf_atan2(rlf_length(axis), fabs(moved.q.w));
+    compare(&camera->T_world_camera, out);
     return result;
 }
 
 static bool is_off(const camera_check *c)
 {
-    return c->is_known && c->shift_m + REACH_M * c->turn > OFF_M;
+    return c->is_far || (c->is_known && c->shift_m + REACH_M * c->turn > OFF_M);
 }
 
 static void print_one(int32_t index, const camera_check *c)
 {
     printf("camera %d  ", (int)index);
+    if (c->is_far) {
+        printf(
+            "off: no pose near the listed one lays what both see on each other: find it with the "
+            "chessboard\n");
+        return;
+    }
     if (!c->is_known) {
         printf("cannot be told: %s (%.0f %% of its picture shows what the first one sees)\n",
                c->is_enough ? "what both see leaves a way open, such as along a wall"

@@ -63,7 +63,7 @@ for list in two pairs ends; do
         fail "bodies' mean height: $(last one) by one camera, $(last $list) by $list.json"
 done
 echo "mean height: $(last one) by one camera, $(last two) by two, $(last ends) by one that ends"
-"$relief" run two.json --headless --quiet --frames 3 --view 'camera?camera=2' --pictures second ||
+"$relief" run two.json --headless --quiet --frames 3 --view 'camera?camera=2' --pictures 'second?every=1' ||
     fail "the second camera's picture"
 [ -s second/000002.png ] || fail "no picture of the second camera: $(ls second)"
 "$relief" run two.json --headless --quiet --frames 3 --view 'camera?camera=3' 2>stderr.txt && fail "a third camera of two"
@@ -113,6 +113,12 @@ cat stdout.txt
 "$relief" calibrate --check opposite.json --out kept.json >stdout.txt 2>stderr.txt || fail "opposite: $(cat stderr.txt)"
 grep -q 'camera 1  cannot be told' stdout.txt || fail "cameras that see too little of the same: $(cat stdout.txt)"
 grep -A3 position kept.json | tr -d ' \n' | grep -q '0.0,0.0,5.0' || fail "kept.json: $(cat kept.json)"
+echo "{ \"cameras\": [ $first, $(camera 3 6.60066 0.1 0.2) ] }" >far.json
+"$relief" calibrate --check far.json --out far_kept.json >stdout.txt 2>stderr.txt && fail "a pose that is far off holds"
+grep -q 'camera 1  off: no pose near' stdout.txt || fail "far: $(cat stdout.txt)"
+awk -v a="$(place far.json)" -v b="$(place far_kept.json)" 'BEGIN {
+    split(a, x, ","); split(b, y, ","); exit !((x[1] - y[1]) ^ 2 + (x[2] - y[2]) ^ 2 + (x[3] - y[3]) ^ 2 < 1e-12) }' ||
+    fail "far_kept.json: $(place far_kept.json)"
 "$relief" calibrate --check one.json 2>stderr.txt && fail "one camera was checked"
 grep -q 'one.json: lists one camera' stderr.txt || fail "one camera: $(cat stderr.txt)"
 "$relief" calibrate --check synthetic:empty --out no.json >stdout.txt 2>stderr.txt && fail "--out of one camera"
