@@ -21,10 +21,9 @@ GROUPS = (
     ("Begin", ("README.md", "docs/camera-to-cube.md", "docs/guide.md", "docs/python_tour.md", "docs/coming-from.md",
                "docs/troubleshooting.md")),
     ("Use", ("docs/cameras.md", "docs/calibration.md", "docs/scenes.md", "docs/hands.md", "docs/events.md", "docs/ros2.md", "docs/several-cameras.md", "docs/moving-camera.md",
-             "docs/window.md", "docs/python.md", "docs/web.md", "docs/see-through.md", "docs/extending.md",
+             "docs/window.md", "docs/python.md", "docs/web.md", "docs/library.md",
              "examples/README.md")),
-    ("Know", ("docs/conventions.md", "docs/glossary.md", "docs/formats.md", "docs/limits.md", "docs/architecture.md", "docs/abi.md", "docs/dependencies.md",
-              "docs/portability.md",
+    ("Know", ("docs/conventions.md", "docs/glossary.md", "docs/formats.md", "docs/limits.md", "docs/architecture.md", "docs/dependencies.md",
               "lab/measuring.md", "lab/results.md", "lab/experiments.md", "docs/thesis.md",
               "CONTRIBUTING.md", "CHANGELOG.md")),
 )  # fmt: skip

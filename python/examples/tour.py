@@ -1,8 +1,8 @@
 # %% [markdown]
 # # A tour of Relief in Python
 #
-# From a depth picture to a ball on the floor, hands and a recording. The room is synthetic, so no camera is needed.
-# A recording's path or a camera's name from `relief list sources` does as well.
+# From a depth picture to a ball on the floor, hands and a recording. The room is synthetic, so you need no camera.
+# A recording's path or a camera's name from `relief list sources` works as well.
 
 # %%
 import matplotlib
@@ -15,7 +15,7 @@ import relief
 # %% [markdown]
 # ## A frame
 #
-# A source is iterated for its frames. A frame owns its arrays, so you may keep it.
+# Iterate a source to get its frames. A frame owns its arrays, so you may keep it.
 
 # %%
 with relief.open("synthetic:room") as source:
@@ -47,7 +47,7 @@ with relief.Pipeline("synthetic:room", render=False) as pipeline:
 # %% [markdown]
 # ## A body
 #
-# Bodies meet whatever is there. The function that `on_contact` takes hears what begins and ends to touch.
+# Bodies collide with whatever the camera sees. Your `on_contact` function is called when a contact begins or ends.
 
 # %%
 heights, times = [], []
@@ -62,7 +62,7 @@ with relief.Pipeline("synthetic:room") as pipeline:
 # %% [markdown]
 # ## Pictures
 #
-# Every array is NumPy's, so matplotlib shows it.
+# Every array is a NumPy array, so matplotlib shows it.
 
 # %%
 figure, axes = plt.subplots(2, 2, figsize=(9, 6.4), layout="constrained")
@@ -97,7 +97,7 @@ with relief.Pipeline("synthetic:hands?gesture=wave", hands=True, render=False) a
 # %% [markdown]
 # ## A recording
 #
-# What runs can be recorded meanwhile, in the formats of `relief record`. It is read like any source.
+# You can record a pipeline while it runs, in the formats of `relief record`. Open the recording like any source.
 
 # %%
 with relief.Pipeline("synthetic:room", render=False) as pipeline:
@@ -111,7 +111,7 @@ with relief.open("clip.mcap") as source:
 # %% [markdown]
 # ## Your own camera
 #
-# A program whose camera gives NumPy arrays pushes them. Depth is `uint16` with its unit, or `float32` in metres.
+# If your camera gives NumPy arrays, push them. Depth is `uint16` with its unit, or `float32` in metres.
 
 # %%
 camera = relief.Camera(160, 120, fx=120, fy=120, cx=79.5, cy=59.5)

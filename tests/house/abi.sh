@@ -33,7 +33,7 @@ for symbol in $(comm -23 "$work/shown" "$work/listed"); do
 done
 for symbol in $(comm -13 "$work/shown" "$work/listed"); do
     echo "abi: $name no longer shows $symbol: programs that use it stop working." >&2
-    echo "abi: bring it back, or raise the soname (docs/abi.md) and take its line out of $list" >&2
+    echo "abi: bring it back, or raise the soname (docs/library.md) and take its line out of $list" >&2
     failed=1
 done
 [ $failed -eq 0 ] || exit 1
