@@ -148,8 +148,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const rlf_address address = {.source = "ros2:/c", .place = "/c"};
     io_ros_recording r;
     memset(&r, 0, sizeof(r));
-    r.log = io_ros2_gathered_log(&gathered, "ros2:/c");
-    if (io_ros_prepare(&r, &address) == RLF_OK) {
+    if (io_ros2_gathered_log(&gathered, "ros2:/c", &r.log) == RLF_OK &&
+        io_ros_prepare(&r, &address) == RLF_OK) {
         r.decoder.rounds_metres = true;
         decode(&r);
     } else if (rlf_error_text()[0] == '\0') {

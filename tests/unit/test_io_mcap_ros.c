@@ -17,7 +17,7 @@ typedef struct bag {
 static bag bag_open(const char *name)
 {
     bag b = {0};
-    assert_int_equal(io_mcap_writer_create(test_path(name), IO_MCAP_LZ4, &b.writer), RLF_OK);
+    assert_int_equal(io_mcap_writer_create(test_path(name), IO_PACKING_LZ4, &b.writer), RLF_OK);
     return b;
 }
 

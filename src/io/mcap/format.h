@@ -2,10 +2,8 @@
 #ifndef RLF_IO_MCAP_FORMAT_H
 #define RLF_IO_MCAP_FORMAT_H
 
-#include "io/picture/picture.h"
-#include "relief/base.h"
-
-#include <string.h>
+#include "io/little.h"
+#include "io/ros/log.h"
 
 #define IO_MCAP_MAGIC_SIZE 8
 extern const uint8_t io_mcap_magic[IO_MCAP_MAGIC_SIZE];
@@ -30,106 +28,23 @@ typedef enum io_mcap_op {
 #define IO_MCAP_MESSAGE_HEAD 22 /* channel, sequence and two times */
 #define IO_MCAP_FOOTER_SIZE (IO_MCAP_RECORD_HEAD + 20)
 
-typedef enum io_mcap_compression {
-    IO_MCAP_PLAIN = 0,
-    IO_MCAP_ZSTD = 1,
-    IO_MCAP_LZ4 = 2
-} io_mcap_compression;
-
-/* Bytes that are taken apart from the front. Past their end everything is 0 and `is_bad` is set. */
-typedef struct io_mcap_cursor {
-    const uint8_t *data;
-    size_t size; /* left */
-    bool is_bad;
-} io_mcap_cursor;
-
-/* `size` bytes, or NULL. */
-static inline const uint8_t *io_mcap_take(io_mcap_cursor *c, uint64_t size)
-{
-    if (c->is_bad || size > c->size) {
-        c->is_bad = true;
-        return NULL;
-    }
-    const uint8_t *data = c->data;
-    c->data += size;
-    c->size -= (size_t)size;
-    return data;
-}
-
-static inline uint64_t io_mcap_take_number(io_mcap_cursor *c, size_t size)
-{
-    uint64_t value = 0;
-    const uint8_t *data = io_mcap_take(c, size);
-    if (data != NULL) {
-        for (size_t i = 0; i < size; i++) {
-            value |= (uint64_t)data[i] << 8 * i;
-        }
-    }
-    return value;
-}
-
-/* A string or a map with its length of 4 bytes in front. */
-static inline io_mcap_cursor io_mcap_take_block(io_mcap_cursor *c)
-{
-    const uint64_t size = io_mcap_take_number(c, 4);
-    const uint8_t *data = io_mcap_take(c, size);
-    return (io_mcap_cursor){data, data != NULL ? (size_t)size : 0, data == NULL};
-}
-
 /* One record: its opcode, and what it holds; 0 at the end, or when the rest is none. */
-static inline uint8_t io_mcap_take_record(io_mcap_cursor *c, io_mcap_cursor *out)
+static inline uint8_t io_mcap_take_record(cursor *c, cursor *out)
 {
-    if (c->size == 0) {
+    const uint8_t op = cursor_u8(c);
+    const uint64_t size = cursor_u64(c);
+    if (c->is_short || size > c->left) {
+        c->is_short = true;
+        c->left = 0;
+        *out = (cursor){.is_short = true};
         return 0;
     }
-    const uint8_t op = (uint8_t)io_mcap_take_number(c, 1);
-    const uint64_t size = io_mcap_take_number(c, 8);
-    const uint8_t *data = io_mcap_take(c, size);
-    *out = (io_mcap_cursor){data, data != NULL ? (size_t)size : 0, data == NULL};
-    return data != NULL ? op : 0;
+    *out = (cursor){cursor_take(c, (size_t)size), (size_t)size, false};
+    return op;
 }
-
-static inline bool io_mcap_equals(const io_mcap_cursor *block, const char *text)
-{
-    return block->size == strlen(text) && memcmp(block->data, text, block->size) == 0;
-}
-
-/* Copy of a string as text, cut to what fits. */
-static inline void io_mcap_copy(const io_mcap_cursor *block, char *out, size_t size)
-{
-    const size_t length = block->size < size - 1 ? block->size : size - 1;
-    if (length > 0) {
-        memcpy(out, block->data, length);
-    }
-    out[length] = '\0';
-}
-
-/* ---- Compression of chunks ---- */
-
-/* Work memory of zstd and lz4. One thread at a time. */
-typedef struct io_mcap_compressor io_mcap_compressor;
-
-rlf_result io_mcap_compressor_create(io_mcap_compressor **out);
-void io_mcap_compressor_destroy(io_mcap_compressor **compressor);
 
 /* As the file format calls it: "zstd", "lz4" or "". */
-const char *io_mcap_compression_name(io_mcap_compression compression);
-/* False for a name that this build does not know. */
-bool io_mcap_compression_parse(const io_mcap_cursor *name, io_mcap_compression *out);
-
-/* What a frame of zstd says that it unpacks to; 0 = it is none, or does not say. */
-uint64_t io_mcap_zstd_size(const uint8_t *data, size_t size);
-
-/* Appends the compressed bytes. */
-rlf_result io_mcap_compress(io_mcap_compressor *compressor, io_mcap_compression compression,
-                            const uint8_t *data, size_t size, io_byte_buffer *out);
-/* Whether `size` bytes could be that many once decompressed, as far as their head tells: asked
- * before memory is taken for them. */
-bool io_mcap_can_become(io_mcap_compression compression, const uint8_t *data, size_t size,
-                        uint64_t out_size);
-/* Fills all of `out`; false when the bytes are damaged or are not exactly so many. */
-bool io_mcap_decompress(io_mcap_compressor *compressor, io_mcap_compression compression,
-                        const uint8_t *data, size_t size, uint8_t *out, size_t out_size);
+const char *io_mcap_packing_name(io_packing packing);
 
 /* ---- Names in Relief's own recordings ---- */
 

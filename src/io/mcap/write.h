@@ -23,8 +23,7 @@ typedef struct io_mcap_written {
 } io_mcap_written;
 
 /* Makes the file, or replaces what is there. */
-rlf_result io_mcap_writer_create(const char *path, io_mcap_compression compression,
-                                 io_mcap_writer **out);
+rlf_result io_mcap_writer_create(const char *path, io_packing packing, io_mcap_writer **out);
 
 /* Before the first message. Ids count from 1; a channel has the schema added last. */
 void io_mcap_add_schema(io_mcap_writer *writer, const char *name, const char *text);
@@ -45,6 +44,10 @@ rlf_result io_mcap_flush(io_mcap_writer *writer);
  * and made a whole file; the error says so. The pointer is nulled even then. */
 rlf_result io_mcap_writer_close(io_mcap_writer **writer, io_mcap_written *out);
 
+/* Appends the packed bytes. */
+rlf_result io_mcap_compress(io_packing packing, const uint8_t *data, size_t size,
+                            io_byte_buffer *out);
+
 /* ---- What the parts of the MCAP writer share ---- */
 
 /* What the index says about a chunk, and how the file stood behind it. */
@@ -63,8 +66,7 @@ struct io_mcap_writer {
     uint64_t size; /* of what is whole on the disk */
     uint32_t crc;
     int write_errno; /* of the first write that failed; 0 = none */
-    io_mcap_compression compression;
-    io_mcap_compressor *compressor;
+    io_packing packing;
     io_byte_buffer head; /* schemas, channels, metadata, until the first chunk takes them */
     io_byte_buffer schemas, channels, metadata;
     uint16_t schema_count, channel_count;

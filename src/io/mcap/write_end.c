@@ -36,7 +36,7 @@ static void put_chunk_index(io_mcap_writer *w, const chunk_entry *entry)
         }
     }
     io_put_u64(b, entry->index_length);
-    io_mcap_put_text(b, io_mcap_compression_name(w->compression));
+    io_mcap_put_text(b, io_mcap_packing_name(w->packing));
     io_put_u64(b, entry->compressed);
     io_put_u64(b, entry->plain);
     io_mcap_end_record(b, record);

@@ -200,36 +200,24 @@ void io_ros2_gathered_free(io_ros2_gathered *g)
 
 /* ---- as a log ------------------------------------------------------------------------------- */
 
-static io_ros_channel channel_at(void *self, int32_t index)
+/* Of message k of channel i the place is i and k. */
+static rlf_result read_message(void *self, const io_ros_message *message, io_cdr_reader *out)
 {
     const io_ros2_gathered *g = self;
-    const io_ros2_channel *c = &g->channels[index];
-    return (io_ros_channel){c->topic.name, c->type, index * IO_ROS2_FIRST_MAX, c->kept};
-}
-
-static int64_t time_of(void *self, int32_t message)
-{
-    const io_ros2_gathered *g = self;
-    return g->channels[message / IO_ROS2_FIRST_MAX].messages[message % IO_ROS2_FIRST_MAX].sent_ns;
-}
-
-static rlf_result read_message(void *self, int32_t message, io_cdr_reader *out)
-{
-    const io_ros2_gathered *g = self;
-    const io_ros2_message *m =
-        &g->channels[message / IO_ROS2_FIRST_MAX].messages[message % IO_ROS2_FIRST_MAX];
+    const io_ros2_message *m = &g->channels[message->chunk].messages[message->offset];
     *out = io_cdr_open(m->data, m->size);
     return RLF_OK;
 }
 
-io_ros_log io_ros2_gathered_log(io_ros2_gathered *g, const char *source)
+rlf_result io_ros2_gathered_log(io_ros2_gathered *g, const char *source, io_ros_log *out)
 {
-    return (io_ros_log){.name = source,
-                        .is_live = true,
-                        .strangers = "",
-                        .channel_count = g->count,
-                        .self = g,
-                        .channel = channel_at,
-                        .time = time_of,
-                        .read = read_message};
+    *out = (io_ros_log){.name = source, .is_live = true, .self = g, .read = read_message};
+    for (int32_t i = 0; i < g->count; i++) {
+        const io_ros2_channel *c = &g->channels[i];
+        io_ros_log_add_channel(out, (uint32_t)i, c->type, c->topic.name, INT32_MAX);
+        for (int32_t k = 0; k < c->kept; k++) {
+            io_ros_log_add_message(out, (uint32_t)i, c->messages[k].sent_ns, i, (uint64_t)k);
+        }
+    }
+    return io_ros_log_sort(out);
 }

@@ -51,8 +51,8 @@ typedef struct io_ros2_gathered {
 rlf_result io_ros2_gather(io_ros2_node *node, const char *source, const io_ros2_wish *wish,
                           io_ros2_gathered *out);
 void io_ros2_gathered_free(io_ros2_gathered *gathered);
-/* As a log of messages, which borrows from it. */
-io_ros_log io_ros2_gathered_log(io_ros2_gathered *gathered, const char *source);
+/* As a log of messages, which borrows from it; io_ros_log_free it. */
+rlf_result io_ros2_gathered_log(io_ros2_gathered *gathered, const char *source, io_ros_log *out);
 
 /* A back end's `list`: cameras whose depth is published, within a fifth of a second. */
 int32_t io_ros2_list(rlf_source_entry *out, int32_t capacity);

@@ -156,11 +156,8 @@ static rlf_result start(ros2 *r, const rlf_address *address)
                                .color = rlf_address_get(address, "color"),
                                .is_packed = place.profile == IO_ROS2_LAN};
     result = result == RLF_OK ? io_ros2_gather(r->node, r->source, &wish, &r->gathered) : result;
-    if (result != RLF_OK) {
-        return result;
-    }
-    r->ros.log = io_ros2_gathered_log(&r->gathered, r->source);
-    result = io_ros_prepare(&r->ros, address);
+    result = result == RLF_OK ? io_ros2_gathered_log(&r->gathered, r->source, &r->ros.log) : result;
+    result = result == RLF_OK ? io_ros_prepare(&r->ros, address) : result;
     if (result != RLF_OK) {
         return result;
     }
