@@ -226,7 +226,7 @@ static bool has_magic(const io_mcap_reader *reader, int64_t offset)
            memcmp(magic, io_mcap_magic, sizeof(magic)) == 0;
 }
 
-rlf_result io_mcap_list(io_mcap_reader *reader)
+static rlf_result list_all(io_mcap_reader *reader)
 {
     const int64_t size = reader->file.size;
     const char *path = reader->file.path;
@@ -258,4 +258,53 @@ rlf_result io_mcap_list(io_mcap_reader *reader)
                 path, (unsigned long long)w.end, (unsigned long long)size, chunks, messages);
     }
     return io_ros_log_sort(reader->log);
+}
+
+/* ---- open and close ------------------------------------------------------------------------- */
+
+rlf_result io_mcap_reader_open(const char *path, io_ros_log *log, io_mcap_reader **out)
+{
+    io_mcap_reader *reader = rlf_alloc(sizeof(*reader));
+    *out = reader;
+    if (reader == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    reader->log = log;
+    log->self = reader;
+    log->read = io_mcap_message;
+    rlf_result result = io_file_open(&reader->file, path, "check the name");
+    result = result == RLF_OK ? list_all(reader) : result;
+    if (result != RLF_OK) {
+        io_mcap_reader_close(out);
+    }
+    return result;
+}
+
+void io_mcap_reader_close(io_mcap_reader **reader)
+{
+    io_mcap_reader *r = *reader;
+    *reader = NULL;
+    if (r == NULL) {
+        return;
+    }
+    io_file_close(&r->file);
+    rlf_free(r->schemas);
+    rlf_free(r->chunks);
+    io_buffer_free(&r->packed);
+    io_buffer_free(&r->loose);
+    io_buffer_free(&r->plain);
+    io_ros_cache_free(&r->cache);
+    rlf_free(r);
+}
+
+const char *io_mcap_metadata(const io_mcap_reader *reader, const char *key)
+{
+    for (const char *text = reader->metadata; *text != '\0';) {
+        const char *value = text + strlen(text) + 1;
+        if (strcmp(text, key) == 0) {
+            return value;
+        }
+        text = value + strlen(value) + 1;
+    }
+    return NULL;
 }

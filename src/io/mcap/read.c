@@ -1,4 +1,4 @@
-/* Reading MCAP files: opening, chunks, and messages out of them. */
+/* Reading MCAP files: chunks, and messages out of them. */
 #include "io/mcap/read.h"
 
 #include <zlib.h>
@@ -184,7 +184,7 @@ static bool find_message(io_mcap_reader *reader, const io_ros_message *m, cursor
            unpack_message(reader, out);
 }
 
-static rlf_result read_message(void *self, const io_ros_message *m, io_cdr_reader *out)
+rlf_result io_mcap_message(void *self, const io_ros_message *m, io_cdr_reader *out)
 {
     io_mcap_reader *reader = self;
     cursor bytes = {0};
@@ -195,53 +195,4 @@ static rlf_result read_message(void *self, const io_ros_message *m, io_cdr_reade
                                "%s: a message of %s at %.3f s is damaged: record it again",
                                reader->file.path, reader->log->channels[m->channel].topic,
                                1e-9 * (double)m->time_ns);
-}
-
-/* ---- open and close ------------------------------------------------------------------------- */
-
-rlf_result io_mcap_reader_open(const char *path, io_ros_log *log, io_mcap_reader **out)
-{
-    io_mcap_reader *reader = rlf_alloc(sizeof(*reader));
-    *out = reader;
-    if (reader == NULL) {
-        return RLF_ERROR_MEMORY;
-    }
-    reader->log = log;
-    log->self = reader;
-    log->read = read_message;
-    rlf_result result = io_file_open(&reader->file, path, "check the name");
-    result = result == RLF_OK ? io_mcap_list(reader) : result;
-    if (result != RLF_OK) {
-        io_mcap_reader_close(out);
-    }
-    return result;
-}
-
-void io_mcap_reader_close(io_mcap_reader **reader)
-{
-    io_mcap_reader *r = *reader;
-    *reader = NULL;
-    if (r == NULL) {
-        return;
-    }
-    io_file_close(&r->file);
-    rlf_free(r->schemas);
-    rlf_free(r->chunks);
-    io_buffer_free(&r->packed);
-    io_buffer_free(&r->loose);
-    io_buffer_free(&r->plain);
-    io_ros_cache_free(&r->cache);
-    rlf_free(r);
-}
-
-const char *io_mcap_metadata(const io_mcap_reader *reader, const char *key)
-{
-    for (const char *text = reader->metadata; *text != '\0';) {
-        const char *value = text + strlen(text) + 1;
-        if (strcmp(text, key) == 0) {
-            return value;
-        }
-        text = value + strlen(value) + 1;
-    }
-    return NULL;
 }

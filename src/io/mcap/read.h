@@ -53,7 +53,7 @@ rlf_result io_mcap_read_block(const io_mcap_reader *reader, uint64_t offset, uin
 /* Chunk `index` decompressed and checked; false when it is damaged, which is told once for all. */
 bool io_mcap_load_chunk(io_mcap_reader *reader, int32_t index, cursor *out);
 
-/* Lists the file. Fails when it does not begin as one. */
-rlf_result io_mcap_list(io_mcap_reader *reader);
+/* A log's `read`. RLF_ERROR_FORMAT when its chunk is damaged. */
+rlf_result io_mcap_message(void *reader, const io_ros_message *message, io_cdr_reader *out);
 
 #endif
