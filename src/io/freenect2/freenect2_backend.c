@@ -68,11 +68,9 @@ static void freenect2_destroy(void *self)
     if (k->device != NULL) {
         k->api->close(k->device);
     }
-    kinect2_registration_destroy(&k->registration);
     rlf_free(k->depth);
     rlf_free(k->undistorted);
     rlf_free(k->registered);
-    rlf_free(k->offset);
     rlf_free(k->color.data);
     rlf_free(k);
 }
@@ -120,7 +118,6 @@ static rlf_result make_rig(freenect2 *k, const rlf_address *address)
         k->rig.depth = kinect2_undistorted_camera(&k->ir);
         k->rig.color = k->rig.depth;
         k->rig.T_color_depth = rlf_pose_identity();
-        result = kinect2_registration_create(&k->ir, &k->factory, &k->registration);
     } else {
         rlf_log(RLF_LOG_INFO,
                 "%s: the colour camera fits the factory's mapping to %.2f pixels rms, %.1f at "
@@ -139,9 +136,7 @@ static rlf_result allocate(freenect2 *k)
     if (k->is_aligned) {
         k->undistorted = rlf_alloc_array(KINECT2_DEPTH_PIXELS, sizeof(k->undistorted[0]));
         k->registered = rlf_alloc_array(KINECT2_DEPTH_PIXELS, sizeof(k->registered[0]));
-        k->offset = rlf_alloc_array(KINECT2_DEPTH_PIXELS, sizeof(k->offset[0]));
-        is_complete =
-            is_complete && k->undistorted != NULL && k->registered != NULL && k->offset != NULL;
+        is_complete = is_complete && k->undistorted != NULL && k->registered != NULL;
     }
     return is_complete ? RLF_OK : RLF_ERROR_MEMORY;
 }

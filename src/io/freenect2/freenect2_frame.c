@@ -43,9 +43,7 @@ static void fill_color(const rlf_image_rgba8 *out, const uint8_t *color, bool is
 
 static void fill_aligned(freenect2 *k, const relief_freenect2_frame *in)
 {
-    const kinect2_registered registered = {k->undistorted, k->registered, k->offset};
-    kinect2_registration_apply(k->registration, in->depth,
-                               (const uint32_t *)(const void *)in->color, &registered);
+    k->api->registration(k->device, k->undistorted, k->registered);
     fill_depth(k, k->undistorted);
     fill_color(&k->color, (const uint8_t *)k->registered, in->color_is_rgbx != 0);
 }
