@@ -3,68 +3,19 @@
 #include "io/folder/lists.h"
 #include "io/folder/layout.h"
 
+#include <stdio.h>
 #include <string.h>
 
-#define WORDS 4
-
-typedef struct word {
-    const char *text;
-    size_t length;
-} word;
-
-static bool is_blank(char c)
-{
-    return c == ' ' || c == '\t' || c == '\r';
-}
-
-/* Words of a line, WORDS + 1 when there are more. */
-static int cut(const char *line, const char *end, word out[WORDS])
-{
-    int count = 0;
-    while (line < end) {
-        while (line < end && is_blank(*line)) {
-            line++;
-        }
-        if (line == end || (count == 0 && *line == '#')) {
-            break;
-        }
-        if (count == WORDS) {
-            return WORDS + 1;
-        }
-        out[count].text = line;
-        while (line < end && !is_blank(*line)) {
-            line++;
-        }
-        out[count].length = (size_t)(line - out[count].text);
-        count++;
-    }
-    return count;
-}
-
-static bool holds(const word *w, const char *part)
-{
-    const size_t length = strlen(part);
-    for (size_t i = 0; i + length <= w->length; i++) {
-        if (memcmp(w->text + i, part, length) == 0) {
-            return true;
-        }
-    }
-    return false;
-}
+#define LINE_SIZE 8192
 
 typedef struct halves {
     char *text[2]; /* depth, colour */
     size_t size[2];
 } halves;
 
-static void append(halves *h, int which, const word *time, const word *name)
+static void append(halves *h, int which, const char *time, const char *name)
 {
-    char *to = h->text[which] + h->size[which];
-    memcpy(to, time->text, time->length);
-    to[time->length] = ' ';
-    memcpy(to + time->length + 1, name->text, name->length);
-    to[time->length + 1 + name->length] = '\n';
-    h->size[which] += time->length + name->length + 2;
+    h->size[which] += (size_t)sprintf(h->text[which] + h->size[which], "%s %s\n", time, name);
 }
 
 static rlf_result split(const io_bytes *file, halves *h)
@@ -73,22 +24,27 @@ static rlf_result split(const io_bytes *file, halves *h)
     const char *at = (const char *)text.data;
     const char *end = at + text.size;
     for (int32_t number = 1; at < end; number++) {
+        char line[LINE_SIZE], time[2][128] = {{0}}, name[2][IO_PATH_MAX], more;
         const char *stop = memchr(at, '\n', (size_t)(end - at));
-        stop = stop != NULL ? stop : end;
-        word words[WORDS];
-        const int count = cut(at, stop, words);
-        if ((count != 0 && count != WORDS) || (count == WORDS && words[2].text[0] == '#')) {
+        const size_t length = (size_t)((stop != NULL ? stop : end) - at);
+        const size_t size = length < sizeof(line) ? length : 0;
+        memcpy(line, at, size);
+        line[size] = '\0';
+        const int count =
+            sscanf(line, "%127s %4095s %127s %4095s %c", time[0], name[0], time[1], name[1], &more);
+        const bool is_empty = length == 0 || (size > 0 && count <= 0) || time[0][0] == '#';
+        if (!is_empty && (count != 4 || time[1][0] == '#')) {
             return rlf_fail(RLF_ERROR_FORMAT,
                             "%s:%d: is not \"TIME FILE TIME FILE\": write one depth and one colour "
                             "picture per line",
                             file->name, (int)number);
         }
-        if (count == WORDS) {
-            const bool is_depth_first = holds(&words[1], "depth") || !holds(&words[3], "depth");
-            append(h, is_depth_first ? 0 : 1, &words[0], &words[1]);
-            append(h, is_depth_first ? 1 : 0, &words[2], &words[3]);
+        if (!is_empty) {
+            const int depth = strstr(name[0], "depth") != NULL || strstr(name[1], "depth") == NULL;
+            append(h, 0, time[1 - depth], name[1 - depth]);
+            append(h, 1, time[depth], name[depth]);
         }
-        at = stop < end ? stop + 1 : end;
+        at += length + 1;
     }
     return RLF_OK;
 }

@@ -3,7 +3,7 @@
 #ifndef RLF_IO_ROS2_PUBLISH_H
 #define RLF_IO_ROS2_PUBLISH_H
 
-#include "io/live/live.h"
+#include "io/clip/clip.h"
 #include "io/ros/frame_write.h"
 #include "io/ros2/ros2.h"
 #include "relief/pipeline.h"
@@ -78,7 +78,7 @@ typedef struct io_ros2_run_frame {
     uint32_t parts;           /* io_ros2_part */
     int64_t time_ns, host_ns; /* host_ns: of this machine's wall clock */
     rlf_pose T_world_camera;
-    live_slot frame;
+    io_frame_copy frame;
     rlf_image_rgba8 picture;
     size_t picture_room;   /* bytes */
     int32_t width, height; /* of the planes */

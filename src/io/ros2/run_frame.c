@@ -15,12 +15,12 @@ rlf_result io_ros2_run_frame_create(const rlf_rig *rig, io_ros2_run_frame *m)
     m->triangles = rlf_alloc_array(IO_ROS2_HULL_CORNERS, sizeof(m->triangles[0]));
     const bool is_whole = m->bodies != NULL && m->hulls != NULL && m->contacts != NULL &&
                           m->corners != NULL && m->triangles != NULL;
-    return is_whole ? live_slot_create(rig, &m->frame) : RLF_ERROR_MEMORY;
+    return is_whole ? io_frame_copy_create(rig, &m->frame) : RLF_ERROR_MEMORY;
 }
 
 void io_ros2_run_frame_destroy(io_ros2_run_frame *m)
 {
-    live_slot_destroy(&m->frame);
+    io_frame_copy_destroy(&m->frame);
     rlf_free(m->picture.data);
     rlf_free(m->planes);
     rlf_free(m->mask);
@@ -128,7 +128,7 @@ void io_ros2_run_frame_fill(io_ros2_run_frame *m, const rlf_rig *rig, uint32_t w
     m->T_world_camera = from->T_world_camera;
     m->parts = wanted;
     if ((wanted & IO_ROS2_FRAME) != 0) {
-        live_slot_copy(&m->frame, rig, &from->frame);
+        io_frame_copy_set(&m->frame, rig, &from->frame);
     }
     if ((wanted & IO_ROS2_PICTURE) != 0 && !copy_picture(m, &from->render.image)) {
         m->parts &= ~(uint32_t)IO_ROS2_PICTURE;

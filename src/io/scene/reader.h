@@ -51,8 +51,4 @@ rlf_result io_scene_read_look(const io_json_object *object, const io_scene_reade
 /* known.c: the list "known_objects". What is read is the scene's also on failure. */
 rlf_result io_known_read(const io_json_object *top, const char *folder, rlf_scene *scene);
 
-/* ---- Where the bodies of a spawn pattern are ---- */
-
-/* Random numbers from a seed, the same on every machine: SplitMix64 (Steele, Lea, Flood 2014). */
-
 #endif
