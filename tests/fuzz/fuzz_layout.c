@@ -2,7 +2,7 @@
  * lists in order of time with poses of unit length, or an error line. */
 #include "fuzz.h"
 
-#include "io/folder/lists.h"
+#include "io/folder/folder.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "fuzz.h"
 
-#include "io/mcap/format.h"
+#include "io/mcap/mcap.h"
 #include "relief/io.h"
 
 #include <stdio.h>

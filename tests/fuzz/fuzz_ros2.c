@@ -2,7 +2,7 @@
  * an error line. A message is its topic's number, its size in two bytes, and its bytes. */
 #include "fuzz.h"
 
-#include "io/ros/frame_write.h"
+#include "io/ros/write.h"
 #include "io/ros2/find_camera.h"
 #include "relief/io.h"
 

@@ -6,7 +6,7 @@
 #include "test.h"
 #include "bag_file.h"
 #include "io/ros/messages.h"
-#include "io/mcap/write.h"
+#include "io/mcap/mcap.h"
 #include "io_support.h"
 
 #define ROS_TIME_S 1000

@@ -1,7 +1,7 @@
 /* Folders as data sets arrange them: what is recognised, cameras, times, poses, missing depth. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "io/folder/lists.h"
+#include "io/folder/folder.h"
 #include "io_support.h"
 #include "relief/io.h"
 #include "test.h"

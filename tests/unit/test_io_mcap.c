@@ -1,7 +1,7 @@
 /* Recordings: what goes in comes out, whatever becomes of the file. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "io/mcap/format.h"
+#include "io/mcap/mcap.h"
 #include "recording_sample.h"
 #include "test.h"
 

@@ -2,7 +2,7 @@
  * test_io_mcap_killed [TIMES]: 10 by default. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "io/mcap/format.h"
+#include "io/mcap/mcap.h"
 #include "recording_sample.h"
 #include "test.h"
 

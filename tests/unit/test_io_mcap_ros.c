@@ -1,7 +1,7 @@
 /* Recordings of other ROS 2 recorders: which topics are taken, and every kind of picture. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "io/mcap/write.h"
+#include "io/mcap/mcap.h"
 #include "io/ros/messages.h"
 #include "recording_sample.h"
 #include "test.h"

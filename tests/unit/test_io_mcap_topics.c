@@ -1,8 +1,7 @@
 /* Recordings of ROS 1 and 2 alike: which topics are taken, and which lens is theirs. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "io/mcap/format.h"
-#include "io/mcap/read.h"
+#include "io/mcap/mcap.h"
 #include "io/picture/picture.h"
 #include "relief/io.h"
 #include "ros_file.h"

@@ -1,6 +1,6 @@
 /* What a folder that Relief has recorded says beside its pictures. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/folder/layout.h"
+#include "io/folder/folder.h"
 
 #include "io/json.h"
 #include "relief/io.h"
@@ -77,19 +77,10 @@ static rlf_result read_source(const char *path, io_clip_origin *out, uint32_t *o
     return result;
 }
 
-static size_t count_lines(const io_bytes *file)
-{
-    size_t lines = 1;
-    for (size_t i = 0; i < file->size; i++) {
-        lines += file->data[i] == '\n' ? 1 : 0;
-    }
-    return lines;
-}
-
 /* Lines that are no note are passed over: comments, and half a line after a power cut. */
 static io_frame_note *parse_notes(const io_bytes *file, int32_t *out_count)
 {
-    io_frame_note *notes = rlf_alloc_array(count_lines(file), sizeof(notes[0]));
+    io_frame_note *notes = rlf_alloc_array(io_bytes_lines(file), sizeof(notes[0]));
     const char *at = (const char *)file->data;
     const char *end = at + file->size;
     *out_count = 0;

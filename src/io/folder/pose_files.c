@@ -1,5 +1,5 @@
 /* Where the camera was, from the files that come with data sets. */
-#include "io/folder/lists.h"
+#include "io/folder/folder.h"
 
 #include "io/file.h"
 #include "io/clip/clip.h"
@@ -64,15 +64,6 @@ static bool next_number(cursor *c, double *out)
         skip_line(c);
     }
     return false;
-}
-
-static int32_t count_lines(const io_bytes *file)
-{
-    int32_t lines = 1;
-    for (size_t i = 0; i < file->size; i++) {
-        lines += file->data[i] == '\n' ? 1 : 0;
-    }
-    return lines;
 }
 
 void io_pose_list_free(io_pose_list *list)
@@ -150,7 +141,7 @@ static void set_times(const char *file, timed_pose *poses, int32_t count, double
 
 rlf_result io_pose_list_tum(const io_bytes *file, double first_s, double last_s, io_pose_list *out)
 {
-    const int32_t lines = count_lines(file);
+    const int32_t lines = (int32_t)io_bytes_lines(file);
     timed_pose *poses = rlf_alloc_array((size_t)lines, sizeof(poses[0]));
     rlf_result result = poses != NULL ? allocate(out, lines) : RLF_ERROR_MEMORY;
     int32_t count = 0;
@@ -204,7 +195,7 @@ static bool pose_of_matrix(const double *m, rlf_pose *out)
 
 rlf_result io_pose_list_log(const io_bytes *file, io_pose_list *out)
 {
-    const int32_t most = count_lines(file) / 5 + 1;
+    const int32_t most = (int32_t)io_bytes_lines(file) / 5 + 1;
     rlf_result result = allocate(out, most);
     cursor c = {(const char *)file->data, (const char *)file->data + file->size};
     for (int32_t i = 0; result == RLF_OK && i < most; i++) {
@@ -237,14 +228,11 @@ bool io_pose_matrix(const io_bytes *file, rlf_pose *out)
     return pose_of_matrix(m, out);
 }
 
-void io_pose_list_match(const io_pose_list *list, const int64_t *times, int32_t count,
-                        int64_t gap_ns, rlf_pose *out)
+rlf_pose io_pose_list_at(const io_pose_list *list, int64_t time_ns, int64_t gap_ns)
 {
     const io_times known = {list->times, sizeof(list->times[0]), list->count};
-    for (int32_t i = 0; i < count; i++) {
-        const int32_t nearest = io_time_nearest(&known, times[i], gap_ns);
-        out[i] = nearest >= 0 ? list->poses[nearest] : (rlf_pose){0};
-    }
+    const int32_t nearest = io_time_nearest(&known, time_ns, gap_ns);
+    return nearest >= 0 ? list->poses[nearest] : (rlf_pose){0};
 }
 
 /* S R S and S t with S = diag(1, -1, 1): rotations about x and z turn the other way. */

@@ -1,6 +1,6 @@
 /* What is in an MCAP file, from its records one after the other: a summary repeats the channels,
  * and behind each chunk may be an index of its messages. */
-#include "io/mcap/read.h"
+#include "io/mcap/mcap.h"
 
 #define RECORD_MAX ((uint64_t)16 << 20) /* of a schema, a channel, metadata */
 #define INDEX_MAX ((uint64_t)256 << 20) /* of a chunk */

@@ -3,9 +3,8 @@
 #include "io/clip/sink.h"
 
 #include "io/clip/clip.h"
-#include "io/mcap/format.h"
-#include "io/ros/frame_write.h"
-#include "io/mcap/write.h"
+#include "io/mcap/mcap.h"
+#include "io/ros/write.h"
 
 #include <stdio.h>
 #include <time.h>

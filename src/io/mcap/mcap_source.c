@@ -1,7 +1,6 @@
 /* MCAP files as a source: Relief's own recordings, and anybody's ROS 2 recordings of a depth
  * camera. */
-#include "io/mcap/read.h"
-#include "io/mcap/format.h"
+#include "io/mcap/mcap.h"
 #include "io/ros/recording.h"
 #include "io/source/backends.h"
 

@@ -1,5 +1,5 @@
 /* Reading MCAP files: chunks, and messages out of them. */
-#include "io/mcap/read.h"
+#include "io/mcap/mcap.h"
 
 #include <zlib.h>
 #include <zstd.h>

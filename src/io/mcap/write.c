@@ -1,6 +1,6 @@
 /* Writing MCAP files. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/mcap/write.h"
+#include "io/mcap/mcap.h"
 #include "io/little.h"
 
 #include <errno.h>

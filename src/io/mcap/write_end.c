@@ -1,6 +1,6 @@
 /* The end of an MCAP file: the summary, also when the disk is full. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/mcap/write.h"
+#include "io/mcap/mcap.h"
 
 #include <errno.h>
 #include <unistd.h>

@@ -4,7 +4,7 @@
 #define RLF_IO_ROS2_PUBLISH_H
 
 #include "io/clip/clip.h"
-#include "io/ros/frame_write.h"
+#include "io/ros/write.h"
 #include "io/ros2/ros2.h"
 #include "relief/pipeline.h"
 

@@ -3,7 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "io/ros2/find_camera.h"
 #include "io/ros2/publish.h"
-#include "io/ros/scene_write.h"
+#include "io/ros/write.h"
 #include "relief/io.h"
 
 #include <pthread.h>
