@@ -14,6 +14,10 @@ rlf_result io_rig_from_json(const io_json_object *top, rlf_rig *out, double *out
 /* Only its depth_to_color, into rig->T_color_depth; left as it is where there is none. */
 rlf_result io_rig_read_motion(const io_json_object *top, rlf_rig *rig);
 
+/* The rotation of a matrix, row by row. False, and *out left alone, for a mirror or where an entry
+ * of |R R^T - 1| is above the tolerance. */
+bool io_rotation_read(const double rows[9], double tolerance, rlf_quat *out);
+
 /* ---- A camera that gives a part of its picture, or joins neighbouring pixels ---- */
 
 /* As ROS's CameraInfo has it: in pixels of the whole picture, before they are joined. */

@@ -90,8 +90,8 @@ rlf_result io_pose_list_tum(const io_bytes *file, double first_s, double last_s,
 /* Open3D and Redwood: three numbers, then four rows of a 4x4 matrix, and so on. */
 rlf_result io_pose_list_log(const io_bytes *file, io_pose_list *out);
 
-/* 7-Scenes: one 4x4 matrix. False when it is no rigid motion. */
-bool io_pose_matrix(const io_bytes *file, rlf_pose *out);
+/* 7-Scenes: one 4x4 matrix. Zero when it is no rigid motion. */
+rlf_pose io_pose_matrix(const io_bytes *file);
 
 /* Pose of a time: the nearest one, at most `gap_ns` away, or none. */
 rlf_pose io_pose_list_at(const io_pose_list *list, int64_t time_ns, int64_t gap_ns);

@@ -116,7 +116,7 @@ static rlf_result read_scenes7(const char *folder, io_layout *layout)
         snprintf(name, sizeof(name), "%.*s.pose.txt", (int)stem, picture);
         if (io_folder_has(folder, name) &&
             read_whole(folder, name, &buffer, &file, path) == RLF_OK) {
-            io_pose_matrix(&file, &layout->poses[i]);
+            layout->poses[i] = io_pose_matrix(&file);
         }
     }
     io_buffer_free(&buffer);

@@ -2,6 +2,7 @@
 #include "io/folder/folder.h"
 
 #include "io/file.h"
+#include "io/camera_json.h"
 #include "io/clip/clip.h"
 
 #include <math.h>
@@ -164,33 +165,14 @@ rlf_result io_pose_list_tum(const io_bytes *file, double first_s, double last_s,
     return result;
 }
 
-/* Rows of a 4x4 matrix. */
-static bool pose_of_matrix(const double *m, rlf_pose *out)
+/* Rows of a 4x4 matrix; zero where they are no pose. */
+static rlf_pose pose_of_matrix(const double *m)
 {
-    rlf_mat3 rotation;
-    for (int i = 0; i < 16; i++) {
-        if (!isfinite(m[i])) {
-            return false;
-        }
-    }
-    for (int i = 0; i < 9; i++) {
-        rotation.m[i / 3][i % 3] = m[4 * (i / 3) + i % 3];
-    }
-    const rlf_mat3 transposed = rlf_mat3_transpose(&rotation);
-    const rlf_mat3 product = rlf_mat3_mul(&rotation, &transposed);
-    for (int i = 0; i < 9; i++) {
-        if (fabs(product.m[i / 3][i % 3] - (i / 3 == i % 3 ? 1.0 : 0.0)) > ROTATION_TOLERANCE) {
-            return false;
-        }
-    }
-    const rlf_vec3 r[3] = {rlf_vec3_make(m[0], m[1], m[2]), rlf_vec3_make(m[4], m[5], m[6]),
-                           rlf_vec3_make(m[8], m[9], m[10])};
-    if (rlf_dot(r[0], rlf_cross(r[1], r[2])) <= 0.0) {
-        return false; /* a mirror */
-    }
-    *out = (rlf_pose){rlf_vec3_make(m[3], m[7], m[11]),
-                      rlf_quat_normalize(rlf_quat_from_mat3(&rotation))};
-    return true;
+    const double rows[9] = {m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]};
+    rlf_pose pose = {.p = rlf_vec3_make(m[3], m[7], m[11])};
+    const bool is_one =
+        io_rotation_read(rows, ROTATION_TOLERANCE, &pose.q) && rlf_vec3_is_finite(pose.p);
+    return is_one ? pose : (rlf_pose){0};
 }
 
 rlf_result io_pose_list_log(const io_bytes *file, io_pose_list *out)
@@ -208,24 +190,22 @@ rlf_result io_pose_list_log(const io_bytes *file, io_pose_list *out)
             break;
         }
         out->times[i] = i;
-        if (!pose_of_matrix(n + 3, &out->poses[i])) {
-            out->poses[i] = (rlf_pose){0};
-        }
+        out->poses[i] = pose_of_matrix(n + 3);
         out->count = i + 1;
     }
     return result;
 }
 
-bool io_pose_matrix(const io_bytes *file, rlf_pose *out)
+rlf_pose io_pose_matrix(const io_bytes *file)
 {
     cursor c = {(const char *)file->data, (const char *)file->data + file->size};
     double m[16];
     for (int i = 0; i < 16; i++) {
         if (!next_number(&c, &m[i])) {
-            return false;
+            return (rlf_pose){0};
         }
     }
-    return pose_of_matrix(m, out);
+    return pose_of_matrix(m);
 }
 
 rlf_pose io_pose_list_at(const io_pose_list *list, int64_t time_ns, int64_t gap_ns)

@@ -53,7 +53,6 @@ typedef struct freenect2 {
     uint32_t time_last; /* the device's, of the last depth picture */
     int64_t time_ns;    /* alike, without wrapping */
     int64_t last_frame_ns;
-    uint64_t unpaired;
 } freenect2;
 
 /* A rlf_source's `next`. */
