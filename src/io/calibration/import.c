@@ -234,3 +234,15 @@ rlf_result io_rig_beside(const rlf_address *address, rlf_rig *out, double *out_u
     *out_found = find_file(address->place, path);
     return *out_found ? rlf_rig_load(path, out, out_units_per_metre) : RLF_OK;
 }
+
+rlf_result io_rig_check_size(const char *name, const char *what, int64_t width, int64_t height,
+                             const rlf_camera *camera)
+{
+    return width == camera->width && height == camera->height
+               ? RLF_OK
+               : rlf_fail(RLF_ERROR_INVALID,
+                          "%s: its pictures of %s are %lld x %lld, and the calibration is for %d x "
+                          "%d: give one of that size with ?camera=FILE",
+                          name, what, (long long)width, (long long)height, (int)camera->width,
+                          (int)camera->height);
+}

@@ -148,6 +148,9 @@ rlf_result io_clip_open(const io_clip_def *def, rlf_opened *out);
  * hold. */
 rlf_result io_rig_beside(const rlf_address *address, rlf_rig *out, double *out_units_per_metre,
                          bool *out_found);
+/* Such a calibration may be of other pictures than those that are there, of depth or of a topic. */
+rlf_result io_rig_check_size(const char *name, const char *what, int64_t width, int64_t height,
+                             const rlf_camera *camera);
 
 /* How a recording is played: keys of a SOURCE that every back end of files understands. */
 

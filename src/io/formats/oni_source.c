@@ -216,11 +216,6 @@ static void rig_of_file(oni *o)
     }
 }
 
-static bool fits(const rlf_camera *camera, const oni_node *node)
-{
-    return camera->width == node->width && camera->height == node->height;
-}
-
 static rlf_result make_rig(oni *o, const rlf_address *address)
 {
     bool is_found = false;
@@ -235,15 +230,12 @@ static rlf_result make_rig(oni *o, const rlf_address *address)
         return RLF_OK;
     }
     o->rig.has_color = o->rig.has_color && o->index.color.pictures.count > 0;
-    if (!fits(&o->rig.depth, &o->index.depth) ||
-        (o->rig.has_color && !fits(&o->rig.color, &o->index.color))) {
-        return rlf_fail(RLF_ERROR_INVALID,
-                        "%s: the calibration is for pictures of another size: depth is %d x %d, "
-                        "colour %d x %d here",
-                        o->file.path, (int)o->index.depth.width, (int)o->index.depth.height,
-                        (int)o->index.color.width, (int)o->index.color.height);
-    }
-    return RLF_OK;
+    const oni_node *depth = &o->index.depth, *color = &o->index.color;
+    result = io_rig_check_size(o->file.path, "depth", depth->width, depth->height, &o->rig.depth);
+    return result == RLF_OK && o->rig.has_color
+               ? io_rig_check_size(o->file.path, "colour", color->width, color->height,
+                                   &o->rig.color)
+               : result;
 }
 
 static rlf_result open_clip(oni *o, rlf_opened *out)
