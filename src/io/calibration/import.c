@@ -1,7 +1,6 @@
 /* Any calibration file as a rig. */
 #include "relief/io.h"
 #include "io/calibration/calibration.h"
-#include "io/camera_json.h"
 #include "io/clip/clip.h"
 
 #include <string.h>

@@ -2,7 +2,7 @@
 #include "io/folder/folder.h"
 
 #include "io/file.h"
-#include "io/camera_json.h"
+#include "io/calibration/calibration.h"
 #include "io/clip/clip.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* The calibration of an Azure Kinect or a Femto camera. */
 #include "io/formats/matroska.h"
 
-#include "io/camera_json.h"
+#include "io/calibration/calibration.h"
 #include "io/json.h"
 
 #include <string.h>

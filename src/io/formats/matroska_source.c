@@ -1,5 +1,5 @@
 /* Frames from the recordings of Azure Kinect and Femto cameras. */
-#include "io/camera_json.h"
+#include "io/calibration/calibration.h"
 #include "io/json.h"
 #include "io/formats/matroska.h"
 #include "io/picture/picture.h"

@@ -1,5 +1,5 @@
 /* An organised .pcd as a source of one frame. */
-#include "io/camera_json.h"
+#include "io/calibration/calibration.h"
 #include "io/formats/pcd.h"
 #include "io/source/backends.h"
 #include "io/clip/clip.h"

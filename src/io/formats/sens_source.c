@@ -1,5 +1,5 @@
 /* Frames from ScanNet's .sens files (version 4). */
-#include "io/camera_json.h"
+#include "io/calibration/calibration.h"
 #include "io/source/backends.h"
 #include "io/little.h"
 #include "io/formats/frame_log.h"

@@ -1,6 +1,6 @@
 /* What all live cameras need. */
 #include "io/live/driver.h"
-#include "io/camera_json.h"
+#include "io/calibration/calibration.h"
 #include "io/clip/clip.h"
 
 #include <math.h>

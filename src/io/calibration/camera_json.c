@@ -1,5 +1,5 @@
 /* camera.json: the intrinsics of the depth and colour cameras and the transform between them. */
-#include "io/camera_json.h"
+#include "io/calibration/calibration.h"
 #include "io/json.h"
 
 #include <math.h>
