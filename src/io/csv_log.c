@@ -3,6 +3,7 @@
 #include "relief/io.h"
 #include "io/file.h"
 
+#include <stdarg.h>
 #include <string.h>
 
 #define ROW_SIZE 1024 /* two quoted names and sixteen numbers need less */
@@ -28,25 +29,13 @@ static void add_bytes(row *r, const char *text, size_t length)
     }
 }
 
-static void add_integer(row *r, int64_t x)
+static void add_numbers(row *r, const double *x, int count)
 {
-    char text[IO_NUMBER_SIZE];
-    int length = snprintf(text, sizeof(text), "%lld", (long long)x);
-    add_bytes(r, text, (size_t)length);
-}
-
-static void add_number(row *r, double x)
-{
-    char text[IO_NUMBER_SIZE];
-    int length = io_number_format(x, text);
-    add_bytes(r, text, (size_t)length);
-}
-
-static void add_vec3(row *r, rlf_vec3 v)
-{
-    add_number(r, v.x);
-    add_number(r, v.y);
-    add_number(r, v.z);
+    for (int i = 0; i < count; i++) {
+        char text[IO_NUMBER_SIZE];
+        const int length = io_number_format(x[i], text);
+        add_bytes(r, text, (size_t)length);
+    }
 }
 
 /* Quoted where it must be: RFC 4180. */
@@ -70,6 +59,37 @@ static void add_name(row *r, const char *name)
     add_bytes(r, text, length);
 }
 
+/* Fields of a row, by their kinds: i int64_t, n double, s const char *, v rlf_vec3, q rlf_quat. */
+static void add(row *r, const char *kinds, ...)
+{
+    va_list fields;
+    va_start(fields, kinds);
+    for (; *kinds != '\0'; kinds++) {
+        char text[IO_NUMBER_SIZE];
+        double x[4] = {0};
+        int count = 0;
+        if (*kinds == 'i') {
+            const long long number = va_arg(fields, int64_t);
+            add_bytes(r, text, (size_t)snprintf(text, sizeof(text), "%lld", number));
+        } else if (*kinds == 's') {
+            add_name(r, va_arg(fields, const char *));
+        } else if (*kinds == 'v') {
+            const rlf_vec3 v = va_arg(fields, rlf_vec3);
+            x[0] = v.x, x[1] = v.y, x[2] = v.z;
+            count = 3;
+        } else if (*kinds == 'q') {
+            const rlf_quat q = va_arg(fields, rlf_quat);
+            x[0] = q.x, x[1] = q.y, x[2] = q.z, x[3] = q.w;
+            count = 4;
+        } else {
+            x[0] = va_arg(fields, double);
+            count = 1;
+        }
+        add_numbers(r, x, count);
+    }
+    va_end(fields);
+}
+
 static rlf_result end_row(io_out_file *file, row *r)
 {
     r->text[r->length++] = '\n';
@@ -87,22 +107,21 @@ static rlf_result open_one(io_out_file *file, const char *folder, const char *na
 
 static rlf_result open_all(rlf_csv_log *log, const char *folder)
 {
-    rlf_result result = open_one(&log->frames, folder, "frames.csv",
-                                 "frame,time_s,valid,missing,foreground,regions,capture_ms,"
-                                 "surface_ms,physics_ms,render_ms\n");
-    if (result == RLF_OK) {
-        result = open_one(&log->bodies, folder, "bodies.csv",
-                          "frame,time_s,body,px,py,pz,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz\n");
-    }
-    if (result == RLF_OK) {
-        result = open_one(&log->contacts, folder, "contacts.csv",
-                          "frame,time_s,body,other,px,py,pz,nx,ny,nz,separation,impulse,"
-                          "surface_speed\n");
-    }
-    if (result == RLF_OK) {
-        result = open_one(&log->hands, folder, "hands.csv",
-                          "frame,time_s,hand,side,px,py,pz,vx,vy,vz,gesture,pinch_m,holding,"
-                          "confidence\n");
+    const struct {
+        io_out_file *file;
+        const char *name, *header;
+    } files[] = {
+        {&log->frames, "frames.csv",
+         "frame,time_s,valid,missing,foreground,regions,capture_ms,surface_ms,physics_ms,"
+         "render_ms\n"},
+        {&log->bodies, "bodies.csv", "frame,time_s,body,px,py,pz,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz\n"},
+        {&log->contacts, "contacts.csv",
+         "frame,time_s,body,other,px,py,pz,nx,ny,nz,separation,impulse,surface_speed\n"},
+        {&log->hands, "hands.csv",
+         "frame,time_s,hand,side,px,py,pz,vx,vy,vz,gesture,pinch_m,holding,confidence\n"}};
+    rlf_result result = RLF_OK;
+    for (int i = 0; i < 4 && result == RLF_OK; i++) {
+        result = open_one(files[i].file, folder, files[i].name, files[i].header);
     }
     return result;
 }
@@ -151,16 +170,10 @@ static rlf_result write_frame(rlf_csv_log *log, const rlf_pipeline_output *outpu
 {
     const rlf_surface *s = output->surface;
     row r = {.length = 0};
-    add_integer(&r, output->frame_index);
-    add_number(&r, output->time_s);
-    add_integer(&r, s->valid_count);
-    add_integer(&r, (int64_t)s->width * s->height - s->valid_count);
-    add_integer(&r, s->foreground_count);
-    add_integer(&r, s->region_count);
-    add_number(&r, output->times.capture_ms);
-    add_number(&r, output->times.surface_ms);
-    add_number(&r, output->times.physics_ms);
-    add_number(&r, output->times.render_ms);
+    add(&r, "iniiiinnnn", output->frame_index, output->time_s, (int64_t)s->valid_count,
+        (int64_t)s->width * s->height - s->valid_count, (int64_t)s->foreground_count,
+        (int64_t)s->region_count, output->times.capture_ms, output->times.surface_ms,
+        output->times.physics_ms, output->times.render_ms);
     return end_row(&log->frames, &r);
 }
 
@@ -171,16 +184,8 @@ static rlf_result write_bodies(rlf_csv_log *log, const rlf_pipeline_output *outp
     for (int32_t i = 0; i < snapshot->body_count && result == RLF_OK; i++) {
         const rlf_body_state *body = &snapshot->bodies[i];
         row r = {.length = 0};
-        add_integer(&r, output->frame_index);
-        add_number(&r, output->time_s);
-        add_name(&r, body->name);
-        add_vec3(&r, body->T_world_body.p);
-        add_number(&r, body->T_world_body.q.x);
-        add_number(&r, body->T_world_body.q.y);
-        add_number(&r, body->T_world_body.q.z);
-        add_number(&r, body->T_world_body.q.w);
-        add_vec3(&r, body->velocity);
-        add_vec3(&r, body->angular_velocity);
+        add(&r, "insvqvv", output->frame_index, output->time_s, body->name, body->T_world_body.p,
+            body->T_world_body.q, body->velocity, body->angular_velocity);
         result = end_row(&log->bodies, &r);
     }
     return result;
@@ -228,15 +233,9 @@ static rlf_result write_contacts(rlf_csv_log *log, const rlf_pipeline_output *ou
     for (int32_t i = 0; i < snapshot->contact_count && result == RLF_OK; i++) {
         const rlf_contact *contact = &snapshot->contacts[i];
         row r = {.length = 0};
-        add_integer(&r, output->frame_index);
-        add_number(&r, output->time_s);
-        add_name(&r, name_of(snapshot, contact->body));
-        add_name(&r, other_name(snapshot, contact));
-        add_vec3(&r, contact->point);
-        add_vec3(&r, contact->normal);
-        add_number(&r, contact->separation);
-        add_number(&r, contact->impulse);
-        add_number(&r, contact->surface_speed);
+        add(&r, "inssvvnnn", output->frame_index, output->time_s, name_of(snapshot, contact->body),
+            other_name(snapshot, contact), contact->point, contact->normal, contact->separation,
+            contact->impulse, contact->surface_speed);
         result = end_row(&log->contacts, &r);
     }
     return result;
@@ -261,16 +260,10 @@ static rlf_result write_hands(rlf_csv_log *log, const rlf_pipeline_output *outpu
             continue;
         }
         row r = {.length = 0};
-        add_integer(&r, output->frame_index);
-        add_number(&r, output->time_s);
-        add_integer(&r, hand->id);
-        add_name(&r, sides[hand->side]);
-        add_vec3(&r, rlf_transform(T, hand->palm));
-        add_vec3(&r, rlf_rotate(T->q, hand->velocity));
-        add_name(&r, rlf_gesture_name(hand->gesture));
-        add_number(&r, hand->pinch_width);
-        add_name(&r, held_name(output->snapshot, hand->holding));
-        add_number(&r, hand->confidence);
+        add(&r, "inisvvsnsn", output->frame_index, output->time_s, (int64_t)hand->id,
+            sides[hand->side], rlf_transform(T, hand->palm), rlf_rotate(T->q, hand->velocity),
+            rlf_gesture_name(hand->gesture), hand->pinch_width,
+            held_name(output->snapshot, hand->holding), hand->confidence);
         result = end_row(&log->hands, &r);
     }
     return result;

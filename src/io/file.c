@@ -19,6 +19,15 @@ io_bytes io_bytes_unmarked(const io_bytes *text)
     return mark == 0 ? *text : (io_bytes){text->name, text->data + mark, text->size - mark};
 }
 
+size_t io_bytes_lines(const io_bytes *text)
+{
+    size_t lines = 1;
+    for (size_t i = 0; i < text->size; i++) {
+        lines += text->data[i] == '\n' ? 1 : 0;
+    }
+    return lines;
+}
+
 rlf_result io_buffer_reserve(io_buffer *buffer, size_t size)
 {
     if (size <= buffer->capacity) {

@@ -18,6 +18,8 @@ typedef struct io_bytes {
 
 /* A text without the mark that some editors put before it (EF BB BF). */
 io_bytes io_bytes_unmarked(const io_bytes *text);
+/* How many lines a text has at most. */
+size_t io_bytes_lines(const io_bytes *text);
 
 /* Memory that grows to the largest file read so far. Free with io_buffer_free. */
 typedef struct io_buffer {

@@ -3,6 +3,7 @@
 
 #include <stdarg.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const char *type_name(const json_t *value)
@@ -241,4 +242,23 @@ const char *io_json_unknown_key(const io_json_object *object, const char *const 
         }
     }
     return NULL;
+}
+
+rlf_result io_json_write(const char *path, json_t *document, size_t digits)
+{
+    char *text = document != NULL
+                     ? json_dumps(document, JSON_INDENT(2) | JSON_REAL_PRECISION(digits))
+                     : NULL;
+    json_decref(document);
+    io_out_file file;
+    rlf_result result = text != NULL
+                            ? io_out_open(&file, path)
+                            : rlf_fail(RLF_ERROR_MEMORY, "%s: not enough memory for it", path);
+    if (result == RLF_OK) {
+        result = io_out_write(&file, text, strlen(text));
+        result = result == RLF_OK ? io_out_write(&file, "\n", 1) : result;
+        result = io_out_close(&file, result);
+    }
+    free(text);
+    return result;
 }

@@ -55,6 +55,10 @@ rlf_result io_json_get_text(const io_json_object *object, const io_json_field *f
 const char *io_json_unknown_key(const io_json_object *object, const char *const *known,
                                 size_t count);
 
+/* Writes a document, which it takes; NULL = memory ran out while it was made. `digits` of numbers;
+ * 0 = as many as keep every bit. */
+rlf_result io_json_write(const char *path, json_t *document, size_t digits);
+
 /* Fails with "FILE: PATH.KEY PROBLEM". */
 rlf_result io_json_fail(const io_json_object *object, const char *key, const char *format, ...)
     RLF_PRINTF(3, 4);

@@ -66,6 +66,12 @@ static inline uint8_t cursor_u8(cursor *c)
     return at != NULL ? at[0] : 0;
 }
 
+static inline uint16_t cursor_u16(cursor *c)
+{
+    const uint8_t low = cursor_u8(c);
+    return (uint16_t)(low | cursor_u8(c) << 8);
+}
+
 static inline uint32_t cursor_u32(cursor *c)
 {
     uint32_t value = 0;
@@ -114,15 +120,20 @@ static inline cursor cursor_block(cursor *c)
     return (cursor){at, at != NULL ? size : 0, false};
 }
 
-/* A string's copy, cut at capacity - 1. */
-static inline void cursor_text(cursor *c, char *out, size_t capacity)
+/* A copy of all that is left as text, cut at capacity - 1. */
+static inline void cursor_copy(cursor text, char *out, size_t capacity)
 {
-    const cursor text = cursor_block(c);
     const size_t size = text.left < capacity ? text.left : capacity - 1;
     if (size > 0) {
         memcpy(out, text.data, size);
     }
     out[size] = '\0';
+}
+
+/* A string's copy. */
+static inline void cursor_text(cursor *c, char *out, size_t capacity)
+{
+    cursor_copy(cursor_block(c), out, capacity);
 }
 
 /* Seconds and nanoseconds, as ROS 1 serialises them. */

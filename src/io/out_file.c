@@ -1,12 +1,4 @@
 /* Files that appear only when they are whole. */
-#define _POSIX_C_SOURCE 200809L
-#include "relief/io.h"
-#include "io/file.h"
-
-#include <errno.h>
-#include <string.h>
-#include <sys/stat.h>
-
 #define _DEFAULT_SOURCE /* flock */
 #define _POSIX_C_SOURCE 200809L
 #include "io/file.h"

@@ -1,7 +1,7 @@
 /* camera.json: any bytes give a usable rig or an error line. */
 #include "fuzz.h"
 
-#include "io/camera_json.h"
+#include "io/calibration/calibration.h"
 
 #include <stdlib.h>
 

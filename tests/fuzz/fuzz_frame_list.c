@@ -1,7 +1,7 @@
 /* depth.txt: any bytes give a list in order of time, or an error line. */
 #include "fuzz.h"
 
-#include "io/folder/lists.h"
+#include "io/folder/folder.h"
 
 #include <stdlib.h>
 

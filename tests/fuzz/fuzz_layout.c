@@ -2,7 +2,7 @@
  * lists in order of time with poses of unit length, or an error line. */
 #include "fuzz.h"
 
-#include "io/folder/lists.h"
+#include "io/folder/folder.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -44,7 +44,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const io_bytes file = {"file.txt", data, size};
     io_frame_list depth, color;
     io_pose_list poses;
-    rlf_pose pose = {0};
     bool has_numbers;
     if (io_associations_parse(&file, &depth, &color, &has_numbers) == RLF_OK) {
         if (depth.count != color.count) {
@@ -59,8 +58,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (io_pose_list_log(&file, &poses) == RLF_OK) {
         check_poses(&poses);
     }
-    if (io_pose_matrix(&file, &pose)) {
-        check_pose(&pose);
-    }
+    const rlf_pose pose = io_pose_matrix(&file);
+    check_pose(&pose);
     return 0;
 }

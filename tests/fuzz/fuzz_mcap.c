@@ -3,7 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "fuzz.h"
 
-#include "io/mcap/format.h"
+#include "io/mcap/mcap.h"
 #include "relief/io.h"
 
 #include <stdio.h>
@@ -30,8 +30,8 @@ static size_t read_whole(const char *path, uint8_t *out, size_t capacity)
 /* 0 = not to be checked: what is changed behind it is looked at all the same. */
 static void clear_crcs(uint8_t *data, size_t size)
 {
-    io_mcap_cursor c = {data + IO_MCAP_MAGIC_SIZE, size - IO_MCAP_MAGIC_SIZE, false};
-    io_mcap_cursor record;
+    cursor c = {data + IO_MCAP_MAGIC_SIZE, size - IO_MCAP_MAGIC_SIZE, false};
+    cursor record;
     for (uint8_t op; (op = io_mcap_take_record(&c, &record)) != 0;) {
         uint8_t *content = data + (record.data - data);
         if (op == IO_MCAP_CHUNK || op == IO_MCAP_FOOTER) {

@@ -2,8 +2,8 @@
  * an error line. A message is its topic's number, its size in two bytes, and its bytes. */
 #include "fuzz.h"
 
-#include "io/ros/frame_write.h"
-#include "io/ros2/gather.h"
+#include "io/ros/write.h"
+#include "io/ros2/find_camera.h"
 #include "relief/io.h"
 
 #include <stdio.h>
@@ -98,7 +98,7 @@ size_t fuzz_seed(int index, uint8_t *out, size_t capacity)
 
 /* ---- the camera ----------------------------------------------------------------------------- */
 
-static void take_apart(const uint8_t *data, size_t size, io_ros2_gathered *g)
+static void take_apart(const uint8_t *data, size_t size, io_ros2_found *g)
 {
     g->count = TOPICS;
     for (int i = 0; i < TOPICS; i++) {
@@ -142,14 +142,14 @@ static void decode(io_ros_recording *r)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static io_ros2_gathered gathered;
-    memset(&gathered, 0, sizeof(gathered));
-    take_apart(data, size, &gathered);
+    static io_ros2_found found;
+    memset(&found, 0, sizeof(found));
+    take_apart(data, size, &found);
     const rlf_address address = {.source = "ros2:/c", .place = "/c"};
     io_ros_recording r;
     memset(&r, 0, sizeof(r));
-    r.log = io_ros2_gathered_log(&gathered, "ros2:/c");
-    if (io_ros_prepare(&r, &address) == RLF_OK) {
+    if (io_ros2_found_log(&found, "ros2:/c", &r.log) == RLF_OK &&
+        io_ros_prepare(&r, &address) == RLF_OK) {
         r.decoder.rounds_metres = true;
         decode(&r);
     } else if (rlf_error_text()[0] == '\0') {

@@ -6,7 +6,7 @@
 #include "test.h"
 #include "bag_file.h"
 #include "io/ros/messages.h"
-#include "io/mcap/write.h"
+#include "io/mcap/mcap.h"
 #include "io_support.h"
 
 #define ROS_TIME_S 1000
@@ -23,7 +23,7 @@ static inline ros_file ros_file_open(const char *stem)
     char name[64];
     ros_file f = {.bag = bag_file_new()};
     snprintf(name, sizeof(name), "%s.mcap", stem);
-    assert_int_equal(io_mcap_writer_create(test_path(name), IO_MCAP_PLAIN, &f.mcap), RLF_OK);
+    assert_int_equal(io_mcap_writer_create(test_path(name), IO_PACKING_NONE, &f.mcap), RLF_OK);
     return f;
 }
 

@@ -1,7 +1,7 @@
 /* camera.json: what is read, what is assumed, and what is refused. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "io/camera_json.h"
+#include "io/calibration/calibration.h"
 #include "io_support.h"
 #include "relief/io.h"
 #include "test.h"

@@ -2,7 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 
 #include "io/clip/clip.h"
-#include "io/folder/lists.h"
+#include "io/folder/folder.h"
 #include "io_support.h"
 #include "jpeg_sample.h"
 #include "relief/io.h"

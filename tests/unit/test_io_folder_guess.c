@@ -2,7 +2,7 @@
  * the order of their names. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "io/folder/layout.h"
+#include "io/folder/folder.h"
 #include "io_support.h"
 #include "relief/io.h"
 #include "test.h"

@@ -124,7 +124,7 @@ static void calibrations_are_asked_for(void **state)
     expect_frame(source, 0);
     rlf_source_destroy(&source);
     write_rig("clip.json", 8, 6);
-    test_expect_error(rlf_open_source(test_path("clip.mkv"), NULL, &source), RLF_ERROR_FORMAT,
+    test_expect_error(rlf_open_source(test_path("clip.mkv"), NULL, &source), RLF_ERROR_INVALID,
                       "clip.mkv", "8 x 6", "?camera=FILE");
 }
 

@@ -1,7 +1,7 @@
 /* Recordings: what goes in comes out, whatever becomes of the file. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "io/mcap/format.h"
+#include "io/mcap/mcap.h"
 #include "recording_sample.h"
 #include "test.h"
 
@@ -131,9 +131,9 @@ static void folders_and_files_turn_into_each_other(void **state)
 static int32_t count_chunks(const uint8_t *data, size_t size)
 {
     int32_t chunks = 0;
-    io_mcap_cursor c = {data, size, false};
-    io_mcap_take(&c, IO_MCAP_MAGIC_SIZE);
-    io_mcap_cursor record;
+    cursor c = {data, size, false};
+    cursor_take(&c, IO_MCAP_MAGIC_SIZE);
+    cursor record;
     for (uint8_t op; (op = io_mcap_take_record(&c, &record)) != 0;) {
         chunks += op == IO_MCAP_CHUNK;
     }
@@ -172,13 +172,13 @@ static void every_prefix_gives_its_whole_chunks(void **state)
 /* Where the n-th chunk begins and ends. */
 static size_t find_chunk(const uint8_t *data, size_t size, int32_t n, size_t *out_end)
 {
-    io_mcap_cursor c = {data + IO_MCAP_MAGIC_SIZE, size - IO_MCAP_MAGIC_SIZE, false};
-    io_mcap_cursor record;
+    cursor c = {data + IO_MCAP_MAGIC_SIZE, size - IO_MCAP_MAGIC_SIZE, false};
+    cursor record;
     for (;;) {
-        const size_t begin = size - c.size;
+        const size_t begin = size - c.left;
         const uint8_t op = io_mcap_take_record(&c, &record);
         assert_true(op != 0);
-        *out_end = size - c.size;
+        *out_end = size - c.left;
         if (op == IO_MCAP_CHUNK && n-- == 0) {
             return begin;
         }

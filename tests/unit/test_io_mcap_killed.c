@@ -2,7 +2,7 @@
  * test_io_mcap_killed [TIMES]: 10 by default. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "io/mcap/format.h"
+#include "io/mcap/mcap.h"
 #include "recording_sample.h"
 #include "test.h"
 
@@ -30,19 +30,19 @@ static void record_until_killed(const char *path, const rlf_recording_def *def)
 static int32_t count_frames(const uint8_t *data, size_t size, int32_t *out_chunks)
 {
     int32_t messages = 0;
-    io_mcap_cursor c = {data, size, false};
-    io_mcap_take(&c, IO_MCAP_MAGIC_SIZE);
-    io_mcap_cursor record;
+    cursor c = {data, size, false};
+    cursor_take(&c, IO_MCAP_MAGIC_SIZE);
+    cursor record;
     *out_chunks = 0;
     for (uint8_t op; (op = io_mcap_take_record(&c, &record)) != 0;) {
         if (op != IO_MCAP_CHUNK) {
             continue;
         }
         ++*out_chunks;
-        io_mcap_take(&record, 28);
-        io_mcap_take_block(&record);
-        io_mcap_take(&record, 8);
-        io_mcap_cursor message;
+        cursor_take(&record, 28);
+        cursor_block(&record);
+        cursor_take(&record, 8);
+        cursor message;
         for (uint8_t inner; (inner = io_mcap_take_record(&record, &message)) != 0;) {
             messages += inner == IO_MCAP_MESSAGE;
         }

@@ -1,7 +1,7 @@
 /* Recordings of other ROS 2 recorders: which topics are taken, and every kind of picture. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "io/mcap/write.h"
+#include "io/mcap/mcap.h"
 #include "io/ros/messages.h"
 #include "recording_sample.h"
 #include "test.h"
@@ -17,7 +17,7 @@ typedef struct bag {
 static bag bag_open(const char *name)
 {
     bag b = {0};
-    assert_int_equal(io_mcap_writer_create(test_path(name), IO_MCAP_LZ4, &b.writer), RLF_OK);
+    assert_int_equal(io_mcap_writer_create(test_path(name), IO_PACKING_LZ4, &b.writer), RLF_OK);
     return b;
 }
 

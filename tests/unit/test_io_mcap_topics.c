@@ -1,8 +1,7 @@
 /* Recordings of ROS 1 and 2 alike: which topics are taken, and which lens is theirs. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "io/mcap/format.h"
-#include "io/mcap/read.h"
+#include "io/mcap/mcap.h"
 #include "io/picture/picture.h"
 #include "relief/io.h"
 #include "ros_file.h"
@@ -448,26 +447,24 @@ static void messages_packed_one_by_one_are_read(void **state)
 
     io_mcap_reader *reader = NULL;
     io_mcap_writer *writer = NULL;
-    io_mcap_compressor *compressor = NULL;
-    assert_int_equal(io_mcap_reader_open(test_path("plain.mcap"), &reader), RLF_OK);
-    assert_int_equal(io_mcap_writer_create(test_path("a.mcap"), IO_MCAP_PLAIN, &writer), RLF_OK);
-    assert_int_equal(io_mcap_compressor_create(&compressor), RLF_OK);
-    for (int32_t c = 0; c < io_mcap_channel_count(reader); c++) {
-        const io_mcap_channel *from = io_mcap_channel_at(reader, c);
+    io_ros_log log = {.name = "plain.mcap"};
+    assert_int_equal(io_mcap_reader_open(test_path("plain.mcap"), &log, &reader), RLF_OK);
+    assert_int_equal(io_mcap_writer_create(test_path("a.mcap"), IO_PACKING_NONE, &writer), RLF_OK);
+    for (int32_t c = 0; c < log.channel_count; c++) {
+        const io_ros_channel *from = &log.channels[c];
         io_cdr_reader message;
         io_mcap_add_schema(writer, io_ros_type_name(from->type), io_ros_type_text(from->type));
         const uint16_t to = io_mcap_add_channel(writer, from->topic, "");
-        assert_int_equal(io_mcap_read(reader, from->first, &message), RLF_OK);
+        assert_int_equal(io_ros_log_read(&log, c, 0, &message), RLF_OK);
         io_byte_buffer *out = io_mcap_begin(writer, to, 0);
         /* With the head of 4 bytes that a reader is behind. */
-        assert_int_equal(
-            io_mcap_compress(compressor, IO_MCAP_ZSTD, message.data - 4, message.size + 4, out),
-            RLF_OK);
+        assert_int_equal(io_mcap_compress(IO_PACKING_ZSTD, message.data - 4, message.size + 4, out),
+                         RLF_OK);
         io_mcap_end(writer, true);
     }
     assert_int_equal(io_mcap_writer_close(&writer, NULL), RLF_OK);
     io_mcap_reader_close(&reader);
-    io_mcap_compressor_destroy(&compressor);
+    io_ros_log_free(&log);
 
     rlf_source *source = NULL;
     rlf_frame frame;

@@ -1,7 +1,7 @@
 /* MCAP files without chunks, or without an index of them: the format allows both. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "io/mcap/format.h"
+#include "io/mcap/mcap.h"
 #include "relief/io.h"
 #include "ros_file.h"
 #include "test.h"

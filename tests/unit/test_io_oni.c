@@ -102,7 +102,7 @@ static void a_calibration_beside_it_wins(void **state)
     rlf_source_destroy(&source);
     test_write_text("clip.json", "{\"depth\":{\"width\":9,\"height\":4,\"fx\":9,\"fy\":9,\"cx\":4,"
                                  "\"cy\":2,\"units_per_metre\":1000}}");
-    expect_error(&b, RLF_ERROR_INVALID, "another size");
+    expect_error(&b, RLF_ERROR_INVALID, "the calibration is for");
 }
 
 static void depth_codes_are_unpacked(void **state)

@@ -3,7 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "test.h"
 
-#include "io/ros/frame_write.h"
+#include "io/ros/write.h"
 #include "io/ros2/ros2.h"
 #include "io/source/backends.h"
 #include "ros2_host.h"

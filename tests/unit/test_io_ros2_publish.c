@@ -4,7 +4,7 @@
 #include "test.h"
 
 #include "io/ros/messages.h"
-#include "io/ros/scene_write.h"
+#include "io/ros/write.h"
 #include "io/ros2/ros2.h"
 #include "ros2_host.h"
 

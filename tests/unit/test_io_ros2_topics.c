@@ -1,7 +1,7 @@
 /* Which topics are a camera's: as the drivers name them. */
 #include "test.h"
 
-#include "io/ros2/gather.h"
+#include "io/ros2/find_camera.h"
 
 #include <string.h>
 

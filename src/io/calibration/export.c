@@ -1,6 +1,6 @@
 /* A rig in the formats of other programs, and as camera.json. */
 #include "relief/io.h"
-#include "io/file.h"
+#include "io/json.h"
 
 #include <jansson.h>
 #include <stdarg.h>
@@ -108,19 +108,6 @@ static void add_depth_keys(const rlf_rig *rig, double units_per_metre, json_t *d
     }
 }
 
-/* Takes the document. */
-static rlf_result write_json(const char *path, json_t *root)
-{
-    char *text = root != NULL ? json_dumps(root, JSON_INDENT(2)) : NULL;
-    json_decref(root);
-    if (text == NULL) {
-        return rlf_fail(RLF_ERROR_MEMORY, "%s: not enough memory for it", path);
-    }
-    rlf_result result = rlf_file_write(path, text, strlen(text));
-    free(text);
-    return result;
-}
-
 static rlf_result write_relief(const char *path, const rlf_rig *rig, double units_per_metre,
                                const char *note)
 {
@@ -135,7 +122,7 @@ static rlf_result write_relief(const char *path, const rlf_rig *rig, double unit
     if (note != NULL) {
         json_object_set_new(root, "note", json_string(note));
     }
-    return write_json(path, root);
+    return io_json_write(path, root, 0);
 }
 
 static rlf_result write_open3d(const char *path, const rlf_camera *c, const rlf_pose *T_color_depth)
@@ -151,7 +138,7 @@ static rlf_result write_open3d(const char *path, const rlf_camera *c, const rlf_
                 "%s: Open3D's format has no lens distortion: use it with undistorted pictures",
                 path);
     }
-    return write_json(path, root);
+    return io_json_write(path, root, 0);
 }
 
 /* ---- YAML ----------------------------------------------------------------------------------- */

@@ -1,10 +1,9 @@
 /* Any calibration file as a rig. */
 #include "relief/io.h"
 #include "io/calibration/calibration.h"
-#include "io/camera_json.h"
+#include "io/clip/clip.h"
 
 #include <string.h>
-#include <sys/stat.h>
 
 #define UNITS_DEFAULT 1000.0 /* counts a metre: what most cameras store */
 
@@ -173,12 +172,6 @@ static rlf_result join(const char *path, const part *depth, const part *color, r
     return RLF_OK;
 }
 
-static bool exists(const char *path)
-{
-    struct stat status;
-    return stat(path, &status) == 0;
-}
-
 rlf_result rlf_rig_load(const char *path, rlf_rig *out, double *out_units_per_metre)
 {
     if (!RLF_ASSERT(path != NULL && out != NULL && out_units_per_metre != NULL)) {
@@ -188,7 +181,7 @@ rlf_result rlf_rig_load(const char *path, rlf_rig *out, double *out_units_per_me
     part depth, color;
     const char *comma = strchr(path, ',');
     const size_t length = comma != NULL ? (size_t)(comma - path) : 0;
-    const bool is_pair = comma != NULL && length < sizeof(first) && !exists(path);
+    const bool is_pair = comma != NULL && length < sizeof(first) && !io_path_exists(path);
     if (is_pair) {
         memcpy(first, path, length);
         first[length] = '\0';
@@ -203,4 +196,52 @@ rlf_result rlf_rig_load(const char *path, rlf_rig *out, double *out_units_per_me
         *out_units_per_metre = depth.units_per_metre;
     }
     return result;
+}
+
+/* ---- calibration of recordings that hold none --------------------------------------------------
+ */
+
+static bool is_file(const char *path)
+{
+    return io_path_exists(path) && !io_path_is_folder(path);
+}
+
+static bool find_file(const char *place, char out[IO_PATH_MAX])
+{
+    const char *slash = strrchr(place, '/');
+    const char *name = slash != NULL ? slash + 1 : place;
+    const char *dot = strrchr(name, '.');
+    const int stem = (int)(dot != NULL && dot > name ? dot - place : (ptrdiff_t)strlen(place));
+    int length = snprintf(out, IO_PATH_MAX, "%.*s.json", stem, place);
+    if (length > 0 && length < IO_PATH_MAX && is_file(out)) {
+        return true;
+    }
+    length = snprintf(out, IO_PATH_MAX, "%.*scamera.json", (int)(name - place), place);
+    return length > 0 && length < IO_PATH_MAX && is_file(out);
+}
+
+rlf_result io_rig_beside(const rlf_address *address, rlf_rig *out, double *out_units_per_metre,
+                         bool *out_found)
+{
+    char path[IO_PATH_MAX];
+    *out_found = true;
+    if (address->rig != NULL) {
+        *out = *address->rig;
+        *out_units_per_metre = address->units_per_metre;
+        return RLF_OK;
+    }
+    *out_found = find_file(address->place, path);
+    return *out_found ? rlf_rig_load(path, out, out_units_per_metre) : RLF_OK;
+}
+
+rlf_result io_rig_check_size(const char *name, const char *what, int64_t width, int64_t height,
+                             const rlf_camera *camera)
+{
+    return width == camera->width && height == camera->height
+               ? RLF_OK
+               : rlf_fail(RLF_ERROR_INVALID,
+                          "%s: its pictures of %s are %lld x %lld, and the calibration is for %d x "
+                          "%d: give one of that size with ?camera=FILE",
+                          name, what, (long long)width, (long long)height, (int)camera->width,
+                          (int)camera->height);
 }

@@ -1,8 +1,6 @@
 /* camchain.yaml: cam0, cam1 ..., each a pinhole with its lens. */
 #include "io/calibration/calibration.h"
 
-#include "io/camera_json.h"
-
 #include <string.h>
 
 static const io_json_field cameras[2] = {{"cam0", "a camera of kalibr", 0, 0, true},

@@ -2,8 +2,6 @@
  * Open3D share: k1 k2 p1 p2 k3 k4 k5 k6. */
 #include "io/calibration/calibration.h"
 
-#include "io/camera_json.h"
-
 #include <string.h>
 
 #define COEFFICIENTS_MAX 14 /* OpenCV's: thin prism and tilt follow, which must be 0 here */

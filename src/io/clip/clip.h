@@ -148,6 +148,9 @@ rlf_result io_clip_open(const io_clip_def *def, rlf_opened *out);
  * hold. */
 rlf_result io_rig_beside(const rlf_address *address, rlf_rig *out, double *out_units_per_metre,
                          bool *out_found);
+/* Such a calibration may be of other pictures than those that are there, of depth or of a topic. */
+rlf_result io_rig_check_size(const char *name, const char *what, int64_t width, int64_t height,
+                             const rlf_camera *camera);
 
 /* How a recording is played: keys of a SOURCE that every back end of files understands. */
 
@@ -171,5 +174,19 @@ rlf_result io_replay_take(io_address *parts, const rlf_backend *backend, io_repl
 
 /* Puts the playing around the parts of a source. On failure they are left as they were. */
 rlf_result io_replay_wrap(const io_replay *replay, const char *source, rlf_opened *inout);
+
+/* ---- A frame that stays while its source goes on ---- */
+
+typedef struct io_frame_copy {
+    rlf_frame frame; /* its planes are the slot's */
+    void *depth;     /* of either kind */
+    uint8_t *color, *confidence;
+} io_frame_copy;
+
+rlf_result io_frame_copy_create(const rlf_rig *rig, io_frame_copy *out);
+void io_frame_copy_destroy(io_frame_copy *slot);
+
+/* A frame that rlf_frame_check allows. */
+void io_frame_copy_set(io_frame_copy *slot, const rlf_rig *rig, const rlf_frame *frame);
 
 #endif

@@ -5,7 +5,7 @@
 #include "io/clip/clip.h"
 #include "io/picture/picture.h"
 #include "io/file.h"
-#include "io/folder/layout.h"
+#include "io/folder/folder.h"
 
 #include <errno.h>
 #include <inttypes.h>

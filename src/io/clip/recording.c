@@ -2,9 +2,24 @@
 #define _POSIX_C_SOURCE 200809L
 #include "io/clip/sink.h"
 
+#include "base/messages.h"
+
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+
+#ifndef RLF_HAVE_MCAP
+rlf_result io_mcap_sink_open(const char *path, const rlf_source_info *info,
+                             const rlf_recording_def *def, io_sink *out)
+{
+    (void)info, (void)def, (void)out;
+    return rlf_fail(
+        RLF_ERROR_UNSUPPORTED,
+        "%s: this build was made without MCAP: record into a folder, FOLDER/, or " RLF_GET_PART(
+            "libzstd-dev liblz4-dev", "script/bootstrap", "RELIEF_WITH_MCAP"),
+        path);
+}
+#endif
 
 #define COOKIE 0x52454331u
 #define TIME_MAX_NS INT64_C(4000000000000000000) /* the year 2096; what ROS has room for */

@@ -2,7 +2,6 @@
 #define _POSIX_C_SOURCE 200809L
 #include "io/clip/clip.h"
 
-#include <string.h>
 #include <time.h>
 
 #define WAIT_MAX_NS 50000000 /* a call sleeps no longer: the caller has a window to serve */
@@ -29,7 +28,7 @@ typedef struct replay {
     bool is_held, is_started;
     rlf_frame held;
     int64_t due_base_ns, time_base_ns;
-    uint8_t *depth, *color, *confidence;
+    io_frame_copy given; /* must stay while the next one is waited for */
 } replay;
 
 /* SplitMix64 (Steele, Lea and Flood 2014) of the frame's number. */
@@ -150,41 +149,6 @@ static rlf_result read_frame(replay *r, rlf_frame *out)
     return result;
 }
 
-static void copy_rows(const void *from, ptrdiff_t stride, uint8_t *to, int32_t rows, size_t size)
-{
-    for (ptrdiff_t y = 0; y < rows; y++) {
-        memcpy(to + (size_t)y * size, (const uint8_t *)from + y * stride, size);
-    }
-}
-
-/* Into planes of our own: those of the frame given last must stay while the next one is waited for.
- */
-static void copy_planes(const replay *r, rlf_frame *f)
-{
-    const rlf_rig *rig = &r->inner.info.rig;
-    const int32_t rows = rig->depth.height;
-    const size_t width = (size_t)rig->depth.width;
-    if (f->depth_u16 != NULL) {
-        copy_rows(f->depth_u16, f->depth_stride, r->depth, rows, width * 2);
-        f->depth_u16 = (const uint16_t *)(const void *)r->depth;
-    } else {
-        copy_rows(f->depth_f32, f->depth_stride, r->depth, rows, width * 4);
-        f->depth_f32 = (const float *)(const void *)r->depth;
-    }
-    f->depth_stride = (ptrdiff_t)width * (f->depth_u16 != NULL ? 2 : 4);
-    if (f->confidence != NULL) {
-        copy_rows(f->confidence, f->confidence_stride, r->confidence, rows, width);
-        f->confidence = r->confidence;
-        f->confidence_stride = (ptrdiff_t)width;
-    }
-    if (f->color.data != NULL) {
-        const size_t size = (size_t)rig->color.width * 4;
-        copy_rows(f->color.data, f->color.stride, r->color, rig->color.height, size);
-        f->color =
-            (rlf_image_rgba8){r->color, rig->color.width, rig->color.height, (ptrdiff_t)size};
-    }
-}
-
 /* RLF_OK once the held frame is due. */
 static rlf_result wait_for_due(replay *r)
 {
@@ -222,8 +186,8 @@ static rlf_result replay_next(void *self, rlf_frame *out)
     }
     rlf_result result = wait_for_due(r);
     if (result == RLF_OK) {
-        *out = r->held;
-        copy_planes(r, out);
+        io_frame_copy_set(&r->given, &r->inner.info.rig, &r->held);
+        *out = r->given.frame;
         r->is_held = false;
     }
     return result;
@@ -270,9 +234,7 @@ static void replay_status(void *self, rlf_source_status *out)
 
 static void free_replay(replay *r)
 {
-    rlf_free(r->depth);
-    rlf_free(r->color);
-    rlf_free(r->confidence);
+    io_frame_copy_destroy(&r->given);
     rlf_free(r);
 }
 
@@ -283,20 +245,6 @@ static void replay_destroy(void *self)
         r->inner.methods.destroy(r->inner.self);
     }
     free_replay(r);
-}
-
-static rlf_result allocate_planes(replay *r)
-{
-    const rlf_rig *rig = &r->inner.info.rig;
-    const size_t pixels = (size_t)rig->depth.width * (size_t)rig->depth.height;
-    r->depth = rlf_alloc_array(pixels, sizeof(float));
-    r->confidence = rlf_alloc(pixels);
-    if (rig->has_color) {
-        r->color = rlf_alloc_array((size_t)rig->color.width * (size_t)rig->color.height, 4);
-    }
-    const bool is_whole =
-        r->depth != NULL && r->confidence != NULL && (r->color != NULL || !rig->has_color);
-    return is_whole ? RLF_OK : RLF_ERROR_MEMORY;
 }
 
 /* The part of the recording that is given, and whether this source can be played so. */
@@ -363,7 +311,7 @@ rlf_result io_replay_wrap(const io_replay *keys, const char *source, rlf_opened 
     r->is_first = true;
     rlf_result result = set_range(r, source);
     if (result == RLF_OK && keys->speed > 0.0) {
-        result = allocate_planes(r);
+        result = io_frame_copy_create(&r->inner.info.rig, &r->given);
     }
     if (result != RLF_OK) {
         free_replay(r);

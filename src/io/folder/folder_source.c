@@ -1,7 +1,7 @@
 /* Frames from a folder of pictures, in the TUM layout with camera.json or in those of data sets. */
 #include "relief/io.h"
-#include "io/folder/layout.h"
-#include "io/camera_json.h"
+#include "io/folder/folder.h"
+#include "io/calibration/calibration.h"
 #include "io/picture/picture.h"
 #include "io/file.h"
 #include "io/source/backends.h"

@@ -1,6 +1,5 @@
 /* How the pictures of a folder are arranged. */
-#include "io/folder/layout.h"
-#include "io/folder/lists.h"
+#include "io/folder/folder.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* The camera of a folder without camera.json: intrinsic.json of Open3D, else what the data set is
  * known to have used. */
-#include "io/folder/layout.h"
+#include "io/folder/folder.h"
 #include "io/json.h"
 #include "relief/image.h"
 

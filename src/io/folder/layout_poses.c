@@ -1,7 +1,6 @@
 /* The poses that lie beside the pictures of a folder. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/folder/layout.h"
-#include "io/folder/lists.h"
+#include "io/folder/folder.h"
 
 #include <dirent.h>
 #include <stdio.h>
@@ -72,7 +71,7 @@ static rlf_result read_tum(const char *folder, io_layout *layout)
         list.poses[i] = io_pose_flip_y(&list.poses[i]);
     }
     for (int32_t i = 0; result == RLF_OK && i < layout->depth.count; i++) {
-        io_pose_list_match(&list, &layout->depth.entries[i].time_ns, 1, gap_ns, &layout->poses[i]);
+        layout->poses[i] = io_pose_list_at(&list, layout->depth.entries[i].time_ns, gap_ns);
     }
     io_pose_list_free(&list);
     io_buffer_free(&buffer);
@@ -117,7 +116,7 @@ static rlf_result read_scenes7(const char *folder, io_layout *layout)
         snprintf(name, sizeof(name), "%.*s.pose.txt", (int)stem, picture);
         if (io_folder_has(folder, name) &&
             read_whole(folder, name, &buffer, &file, path) == RLF_OK) {
-            io_pose_matrix(&file, &layout->poses[i]);
+            layout->poses[i] = io_pose_matrix(&file);
         }
     }
     io_buffer_free(&buffer);

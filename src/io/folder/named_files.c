@@ -1,6 +1,6 @@
 /* Pictures of a folder that nothing lists. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/folder/layout.h"
+#include "io/folder/folder.h"
 
 #include <dirent.h>
 #include <stdio.h>
@@ -101,12 +101,6 @@ static bool is_picture_name(const char *name, const wish *w, int64_t *out_ns)
            ends_with_one(dot, w->endings);
 }
 
-static int64_t time_of(int64_t number)
-{
-    return number / IO_NUMBERED_RATE * 1000000000 +
-           number % IO_NUMBERED_RATE * 1000000000 / IO_NUMBERED_RATE;
-}
-
 /* Reads digits; -1 = there are none or too many. */
 static int64_t read_number(const char **text)
 {
@@ -133,7 +127,7 @@ static bool is_numbered_name(const char *name, const wish *w, int64_t *out_ns)
     if (number < 0 || number > INT64_MAX / 1000000000 * IO_NUMBERED_RATE) {
         return false;
     }
-    *out_ns = time_of(number);
+    *out_ns = io_numbered_time(number);
     if (*rest == '-') {
         rest++;
         const int64_t micros = read_number(&rest);
@@ -225,7 +219,7 @@ rlf_result io_named_list(const char *folder, const char *sub, const char *word,
         qsort(out->entries, (size_t)out->count, sizeof(out->entries[0]), compare);
     }
     for (int32_t i = 0; i < out->count; i++) {
-        out->entries[i].time_ns = time_of(i);
+        out->entries[i].time_ns = io_numbered_time(i);
         out->entries[i].line = i + 1;
     }
     return result;
@@ -273,7 +267,7 @@ bool io_named_pair(io_frame_list *depth, io_frame_list *color)
     for (int k = 0; k < 2; k++) {
         for (int32_t i = 0; i < lists[k]->count; i++) {
             io_list_entry *e = &lists[k]->entries[i];
-            e->time_ns = time_of(number_of(e->name) - first);
+            e->time_ns = io_numbered_time(number_of(e->name) - first);
         }
     }
     return true;

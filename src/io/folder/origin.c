@@ -1,11 +1,9 @@
 /* What a folder that Relief has recorded says beside its pictures. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/folder/layout.h"
+#include "io/folder/folder.h"
 
 #include "io/json.h"
-#include "relief/io.h"
 
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -22,21 +20,10 @@ rlf_result io_folder_write_origin(const char *folder, const rlf_source_info *inf
     json_t *root = json_pack("{s:[f,f,f], s:b, s:f, s:i}", "gravity", g.x, g.y, g.z, "is_simulated",
                              (int)info->is_simulated, "frames_per_second", info->frames_per_second,
                              "frame_flags", (int)flags);
-    json_t *name = json_string(info->name); /* NULL: is no UTF-8 */
-    json_t *device = json_string(info->device);
-    if (root != NULL && name != NULL) {
-        json_object_set(root, "source", name);
-    }
-    if (root != NULL && device != NULL) {
-        json_object_set(root, "device", device);
-    }
-    char *text = root != NULL ? json_dumps(root, JSON_INDENT(2)) : NULL;
-    json_decref(name);
-    json_decref(device);
-    json_decref(root);
-    result = text != NULL ? rlf_file_write(path, text, strlen(text)) : RLF_ERROR_MEMORY;
-    free(text);
-    return result;
+    /* Names that are no UTF-8 are left out. */
+    json_object_set_new(root, "source", json_string(info->name));
+    json_object_set_new(root, "device", json_string(info->device));
+    return io_json_write(path, root, 0);
 }
 
 static rlf_result read_facts(const io_json_object *top, io_clip_origin *out, uint32_t *out_flags)
@@ -77,19 +64,10 @@ static rlf_result read_source(const char *path, io_clip_origin *out, uint32_t *o
     return result;
 }
 
-static size_t count_lines(const io_bytes *file)
-{
-    size_t lines = 1;
-    for (size_t i = 0; i < file->size; i++) {
-        lines += file->data[i] == '\n' ? 1 : 0;
-    }
-    return lines;
-}
-
 /* Lines that are no note are passed over: comments, and half a line after a power cut. */
 static io_frame_note *parse_notes(const io_bytes *file, int32_t *out_count)
 {
-    io_frame_note *notes = rlf_alloc_array(count_lines(file), sizeof(notes[0]));
+    io_frame_note *notes = rlf_alloc_array(io_bytes_lines(file), sizeof(notes[0]));
     const char *at = (const char *)file->data;
     const char *end = at + file->size;
     *out_count = 0;

@@ -1,7 +1,8 @@
 /* Where the camera was, from the files that come with data sets. */
-#include "io/folder/lists.h"
+#include "io/folder/folder.h"
 
 #include "io/file.h"
+#include "io/calibration/calibration.h"
 #include "io/clip/clip.h"
 
 #include <math.h>
@@ -64,15 +65,6 @@ static bool next_number(cursor *c, double *out)
         skip_line(c);
     }
     return false;
-}
-
-static int32_t count_lines(const io_bytes *file)
-{
-    int32_t lines = 1;
-    for (size_t i = 0; i < file->size; i++) {
-        lines += file->data[i] == '\n' ? 1 : 0;
-    }
-    return lines;
 }
 
 void io_pose_list_free(io_pose_list *list)
@@ -150,7 +142,7 @@ static void set_times(const char *file, timed_pose *poses, int32_t count, double
 
 rlf_result io_pose_list_tum(const io_bytes *file, double first_s, double last_s, io_pose_list *out)
 {
-    const int32_t lines = count_lines(file);
+    const int32_t lines = (int32_t)io_bytes_lines(file);
     timed_pose *poses = rlf_alloc_array((size_t)lines, sizeof(poses[0]));
     rlf_result result = poses != NULL ? allocate(out, lines) : RLF_ERROR_MEMORY;
     int32_t count = 0;
@@ -173,38 +165,19 @@ rlf_result io_pose_list_tum(const io_bytes *file, double first_s, double last_s,
     return result;
 }
 
-/* Rows of a 4x4 matrix. */
-static bool pose_of_matrix(const double *m, rlf_pose *out)
+/* Rows of a 4x4 matrix; zero where they are no pose. */
+static rlf_pose pose_of_matrix(const double *m)
 {
-    rlf_mat3 rotation;
-    for (int i = 0; i < 16; i++) {
-        if (!isfinite(m[i])) {
-            return false;
-        }
-    }
-    for (int i = 0; i < 9; i++) {
-        rotation.m[i / 3][i % 3] = m[4 * (i / 3) + i % 3];
-    }
-    const rlf_mat3 transposed = rlf_mat3_transpose(&rotation);
-    const rlf_mat3 product = rlf_mat3_mul(&rotation, &transposed);
-    for (int i = 0; i < 9; i++) {
-        if (fabs(product.m[i / 3][i % 3] - (i / 3 == i % 3 ? 1.0 : 0.0)) > ROTATION_TOLERANCE) {
-            return false;
-        }
-    }
-    const rlf_vec3 r[3] = {rlf_vec3_make(m[0], m[1], m[2]), rlf_vec3_make(m[4], m[5], m[6]),
-                           rlf_vec3_make(m[8], m[9], m[10])};
-    if (rlf_dot(r[0], rlf_cross(r[1], r[2])) <= 0.0) {
-        return false; /* a mirror */
-    }
-    *out = (rlf_pose){rlf_vec3_make(m[3], m[7], m[11]),
-                      rlf_quat_normalize(rlf_quat_from_mat3(&rotation))};
-    return true;
+    const double rows[9] = {m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]};
+    rlf_pose pose = {.p = rlf_vec3_make(m[3], m[7], m[11])};
+    const bool is_one =
+        io_rotation_read(rows, ROTATION_TOLERANCE, &pose.q) && rlf_vec3_is_finite(pose.p);
+    return is_one ? pose : (rlf_pose){0};
 }
 
 rlf_result io_pose_list_log(const io_bytes *file, io_pose_list *out)
 {
-    const int32_t most = count_lines(file) / 5 + 1;
+    const int32_t most = (int32_t)io_bytes_lines(file) / 5 + 1;
     rlf_result result = allocate(out, most);
     cursor c = {(const char *)file->data, (const char *)file->data + file->size};
     for (int32_t i = 0; result == RLF_OK && i < most; i++) {
@@ -217,34 +190,29 @@ rlf_result io_pose_list_log(const io_bytes *file, io_pose_list *out)
             break;
         }
         out->times[i] = i;
-        if (!pose_of_matrix(n + 3, &out->poses[i])) {
-            out->poses[i] = (rlf_pose){0};
-        }
+        out->poses[i] = pose_of_matrix(n + 3);
         out->count = i + 1;
     }
     return result;
 }
 
-bool io_pose_matrix(const io_bytes *file, rlf_pose *out)
+rlf_pose io_pose_matrix(const io_bytes *file)
 {
     cursor c = {(const char *)file->data, (const char *)file->data + file->size};
     double m[16];
     for (int i = 0; i < 16; i++) {
         if (!next_number(&c, &m[i])) {
-            return false;
+            return (rlf_pose){0};
         }
     }
-    return pose_of_matrix(m, out);
+    return pose_of_matrix(m);
 }
 
-void io_pose_list_match(const io_pose_list *list, const int64_t *times, int32_t count,
-                        int64_t gap_ns, rlf_pose *out)
+rlf_pose io_pose_list_at(const io_pose_list *list, int64_t time_ns, int64_t gap_ns)
 {
     const io_times known = {list->times, sizeof(list->times[0]), list->count};
-    for (int32_t i = 0; i < count; i++) {
-        const int32_t nearest = io_time_nearest(&known, times[i], gap_ns);
-        out[i] = nearest >= 0 ? list->poses[nearest] : (rlf_pose){0};
-    }
+    const int32_t nearest = io_time_nearest(&known, time_ns, gap_ns);
+    return nearest >= 0 ? list->poses[nearest] : (rlf_pose){0};
 }
 
 /* S R S and S t with S = diag(1, -1, 1): rotations about x and z turn the other way. */

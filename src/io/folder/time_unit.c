@@ -1,5 +1,5 @@
 /* Units of times. */
-#include "io/folder/lists.h"
+#include "io/folder/folder.h"
 
 #include <stdlib.h>
 

@@ -1,9 +1,13 @@
 /* The calibration of an Azure Kinect or a Femto camera. */
 #include "io/formats/matroska.h"
 
+#include "io/calibration/calibration.h"
 #include "io/json.h"
 
 #include <string.h>
+
+/* Deviation from a rotation that rounding can cause. */
+#define ROTATION_TOLERANCE 1e-2
 
 /* The window of the whole, binned sensor that a mode gives. */
 typedef struct window {
@@ -120,14 +124,9 @@ static bool read_pose(json_t *from, rlf_pose *out)
         !read_numbers(json_object_get(rt, "Translation"), t, 3)) {
         return false;
     }
-    rlf_mat3 rotation;
-    for (int i = 0; i < 9; i++) {
-        if (!(r[i] >= -1.001 && r[i] <= 1.001)) {
-            return false;
-        }
-        rotation.m[i / 3][i % 3] = r[i];
+    if (!io_rotation_read(r, ROTATION_TOLERANCE, &out->q)) {
+        return false;
     }
-    out->q = rlf_quat_normalize(rlf_quat_from_mat3(&rotation));
     out->p = rlf_vec3_make(t[0], t[1], t[2]);
     return true;
 }

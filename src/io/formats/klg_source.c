@@ -1,5 +1,5 @@
 /* Frames from .klg files, the logs of Kintinuous and ElasticFusion. */
-#include "io/camera_json.h"
+#include "io/calibration/calibration.h"
 #include "io/source/backends.h"
 #include "io/little.h"
 #include "io/formats/frame_log.h"

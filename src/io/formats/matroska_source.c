@@ -1,5 +1,5 @@
 /* Frames from the recordings of Azure Kinect and Femto cameras. */
-#include "io/camera_json.h"
+#include "io/calibration/calibration.h"
 #include "io/json.h"
 #include "io/formats/matroska.h"
 #include "io/picture/picture.h"
@@ -188,13 +188,9 @@ static rlf_result read_rig(const rlf_address *address, matroska *self)
     }
     rlf_result result = is_found ? RLF_OK : read_attached(self);
     const mkv_track *depth = self->depth.track;
-    if (result == RLF_OK &&
-        (self->rig.depth.width != depth->width || self->rig.depth.height != depth->height)) {
-        return rlf_fail(RLF_ERROR_FORMAT,
-                        "%s: the depth pictures are %lld x %lld but the calibration is for %d x "
-                        "%d: give the right one with ?camera=FILE",
-                        self->file.file.path, (long long)depth->width, (long long)depth->height,
-                        (int)self->rig.depth.width, (int)self->rig.depth.height);
+    if (result == RLF_OK) {
+        result = io_rig_check_size(self->file.file.path, "depth", depth->width, depth->height,
+                                   &self->rig.depth);
     }
     self->rig.has_color = self->rig.has_color && self->color.track != NULL;
     return result;

@@ -43,27 +43,17 @@ static rlf_result read_packed(oni *o, const oni_node *node, int32_t index, io_by
     return io_file_read_bytes(&o->file, p->position, p->size, &o->buffer, out);
 }
 
-static void flip_rows_u16(uint16_t *data, int32_t width, int32_t height)
+/* Turns pixels of `size` bytes, at most 4, from left to right. */
+static void flip_rows(void *data, int32_t width, int32_t height, size_t size)
 {
     for (int32_t y = 0; y < height; y++) {
-        uint16_t *row = data + (ptrdiff_t)y * width;
-        for (int32_t a = 0, b = width - 1; a < b; a++, b--) {
-            const uint16_t swap = row[a];
-            row[a] = row[b];
-            row[b] = swap;
-        }
-    }
-}
-
-static void flip_rows_rgba(const rlf_image_rgba8 *image)
-{
-    for (int32_t y = 0; y < image->height; y++) {
-        uint8_t *row = rlf_rgba8_row(image, y);
-        for (int32_t a = 0, b = image->width - 1; a < b; a++, b--) {
+        uint8_t *a = (uint8_t *)data + (size_t)y * (size_t)width * size;
+        uint8_t *b = a + (size_t)(width - 1) * size;
+        for (; a < b; a += size, b -= size) {
             uint8_t swap[4];
-            memcpy(swap, row + (ptrdiff_t)4 * a, 4);
-            memcpy(row + (ptrdiff_t)4 * a, row + (ptrdiff_t)4 * b, 4);
-            memcpy(row + (ptrdiff_t)4 * b, swap, 4);
+            memcpy(swap, a, size);
+            memcpy(a, b, size);
+            memcpy(b, swap, size);
         }
     }
 }
@@ -89,7 +79,7 @@ static rlf_result read_depth(void *self, int32_t index, void *out)
         return fail_picture(o, node, index, "depth");
     }
     if (o->depth_flips) {
-        flip_rows_u16(out, node->width, node->height);
+        flip_rows(out, node->width, node->height, 2);
     }
     return RLF_OK;
 }
@@ -116,7 +106,7 @@ static rlf_result read_color(void *self, int32_t index, const rlf_image_rgba8 *o
         result = fail_picture(o, node, index, "colour");
     }
     if (result == RLF_OK && o->color_flips) {
-        flip_rows_rgba(out);
+        flip_rows(out->data, out->width, out->height, 4);
     }
     return result;
 }
@@ -226,11 +216,6 @@ static void rig_of_file(oni *o)
     }
 }
 
-static bool fits(const rlf_camera *camera, const oni_node *node)
-{
-    return camera->width == node->width && camera->height == node->height;
-}
-
 static rlf_result make_rig(oni *o, const rlf_address *address)
 {
     bool is_found = false;
@@ -245,15 +230,12 @@ static rlf_result make_rig(oni *o, const rlf_address *address)
         return RLF_OK;
     }
     o->rig.has_color = o->rig.has_color && o->index.color.pictures.count > 0;
-    if (!fits(&o->rig.depth, &o->index.depth) ||
-        (o->rig.has_color && !fits(&o->rig.color, &o->index.color))) {
-        return rlf_fail(RLF_ERROR_INVALID,
-                        "%s: the calibration is for pictures of another size: depth is %d x %d, "
-                        "colour %d x %d here",
-                        o->file.path, (int)o->index.depth.width, (int)o->index.depth.height,
-                        (int)o->index.color.width, (int)o->index.color.height);
-    }
-    return RLF_OK;
+    const oni_node *depth = &o->index.depth, *color = &o->index.color;
+    result = io_rig_check_size(o->file.path, "depth", depth->width, depth->height, &o->rig.depth);
+    return result == RLF_OK && o->rig.has_color
+               ? io_rig_check_size(o->file.path, "colour", color->width, color->height,
+                                   &o->rig.color)
+               : result;
 }
 
 static rlf_result open_clip(oni *o, rlf_opened *out)

@@ -114,7 +114,7 @@ static bool take_data(io_pcd_header *h, const char *word)
 }
 
 /* False when the line's value cannot be. */
-static bool take_line(io_pcd_header *h, const header_line *l, int64_t *points)
+static bool take_line(io_pcd_header *h, const header_line *l, int32_t *points)
 {
     const char *key = l->words[0];
     const bool is_field_line = strcmp(key, "FIELDS") == 0 || strcmp(key, "SIZE") == 0 ||
@@ -125,18 +125,16 @@ static bool take_line(io_pcd_header *h, const header_line *l, int64_t *points)
     if (l->count < 2) {
         return true; /* VERSION and VIEWPOINT do not matter, nor what is not known */
     }
-    const int64_t number = number_of(l->words[1]);
-    if (strcmp(key, "WIDTH") == 0) {
-        h->width = (int32_t)number;
-        return number >= 1;
-    }
-    if (strcmp(key, "HEIGHT") == 0) {
-        h->height = (int32_t)number;
-        return number >= 1;
-    }
-    if (strcmp(key, "POINTS") == 0) {
-        *points = number;
-        return number >= 0;
+    const struct {
+        const char *key;
+        int32_t *out;
+        int32_t least;
+    } numbers[] = {{"WIDTH", &h->width, 1}, {"HEIGHT", &h->height, 1}, {"POINTS", points, 0}};
+    for (int i = 0; i < 3; i++) {
+        if (strcmp(key, numbers[i].key) == 0) {
+            *numbers[i].out = (int32_t)number_of(l->words[1]);
+            return *numbers[i].out >= numbers[i].least;
+        }
     }
     return strcmp(key, "DATA") != 0 || take_data(h, l->words[1]);
 }
@@ -150,7 +148,7 @@ static void place_fields(io_pcd_header *h)
     }
 }
 
-static rlf_result check(const io_bytes *file, const io_pcd_header *h, int64_t points)
+static rlf_result check(const io_bytes *file, const io_pcd_header *h, int32_t points)
 {
     const char *const needed[] = {"x", "y", "z"};
     for (int i = 0; i < 3; i++) {
@@ -178,7 +176,7 @@ rlf_result io_pcd_header_parse(const io_bytes *file, io_pcd_header *out)
 {
     memset(out, 0, sizeof(*out));
     size_t at = 0;
-    int64_t points = -1;
+    int32_t points = -1;
     for (int line = 0; line < LINES_MAX; line++) {
         header_line l;
         if (!read_line(file, &at, &l)) {

@@ -1,5 +1,5 @@
 /* An organised .pcd as a source of one frame. */
-#include "io/camera_json.h"
+#include "io/calibration/calibration.h"
 #include "io/formats/pcd.h"
 #include "io/source/backends.h"
 #include "io/clip/clip.h"
@@ -92,19 +92,6 @@ static void destroy(void *self)
     rlf_free(p);
 }
 
-static rlf_result check_size(const rlf_address *address, const pcd *p)
-{
-    const rlf_camera *c = &p->rig.depth;
-    if (c->width != p->header.width || c->height != p->header.height) {
-        return rlf_fail(RLF_ERROR_INVALID,
-                        "%s: has %d x %d points and the calibration is for %d x %d: give that of "
-                        "this camera",
-                        address->source, (int)p->header.width, (int)p->header.height, (int)c->width,
-                        (int)c->height);
-    }
-    return RLF_OK;
-}
-
 /* The user's calibration, else what the points tell, else a file beside. */
 static rlf_result set_rig(const rlf_address *address, pcd *p)
 {
@@ -131,7 +118,8 @@ static rlf_result set_rig(const rlf_address *address, pcd *p)
     p->rig.has_color = p->points.rgba != NULL;
     p->rig.color = p->rig.depth;
     p->rig.T_color_depth = rlf_pose_identity();
-    return check_size(address, p);
+    return io_rig_check_size(address->source, "depth", p->header.width, p->header.height,
+                             &p->rig.depth);
 }
 
 static rlf_result read_file(const rlf_address *address, pcd *p)

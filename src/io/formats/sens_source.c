@@ -1,11 +1,13 @@
 /* Frames from ScanNet's .sens files (version 4). */
-#include "io/camera_json.h"
+#include "io/calibration/calibration.h"
 #include "io/source/backends.h"
 #include "io/little.h"
 #include "io/formats/frame_log.h"
 
-#include <math.h>
 #include <string.h>
+
+/* Deviation from a rotation that rounding can cause. */
+#define ROTATION_TOLERANCE 1e-2
 
 #define VERSION 4
 #define NAME_MAX_BYTES 4096
@@ -70,22 +72,12 @@ static rlf_result read_header(const io_log *log, sens_header *out, int64_t *out_
 
 static bool read_pose(const float *m, rlf_pose *out)
 {
-    rlf_mat3 rotation;
-    for (int i = 0; i < 9; i++) {
-        rotation.m[i / 3][i % 3] = (double)m[i / 3 * 4 + i % 3];
-        /* A frame that was lost has a matrix of minus infinities. */
-        if (!(fabs(rotation.m[i / 3][i % 3]) <= 1.001)) {
-            return false;
-        }
+    const double rows[9] = {(double)m[0], (double)m[1], (double)m[2], (double)m[4], (double)m[5],
+                            (double)m[6], (double)m[8], (double)m[9], (double)m[10]};
+    /* A frame that was lost has a matrix of minus infinities. */
+    if (!io_rotation_read(rows, ROTATION_TOLERANCE, &out->q)) {
+        return false;
     }
-    const rlf_mat3 transposed = rlf_mat3_transpose(&rotation);
-    const rlf_mat3 product = rlf_mat3_mul(&rotation, &transposed);
-    for (int i = 0; i < 9; i++) {
-        if (!(fabs(product.m[i / 3][i % 3] - (i / 3 == i % 3 ? 1.0 : 0.0)) < 1e-2)) {
-            return false;
-        }
-    }
-    out->q = rlf_quat_normalize(rlf_quat_from_mat3(&rotation));
     out->p = rlf_vec3_make((double)m[3], (double)m[7], (double)m[11]);
     return rlf_vec3_is_finite(out->p);
 }

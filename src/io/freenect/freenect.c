@@ -137,11 +137,7 @@ static void kinect_destroy(void *self)
 
 static rlf_result open_context(kinect *k, const char *source)
 {
-    const char *reason;
-    k->api = io_library_get(&library, &reason);
-    if (k->api == NULL) {
-        return rlf_fail(RLF_ERROR_UNSUPPORTED, "%s: %s", source, reason);
-    }
+    k->api = &functions;
     if (k->api->init(&k->context, NULL) < 0) {
         k->context = NULL;
         return rlf_fail(RLF_ERROR_DEVICE, "%s: libfreenect cannot use USB", source);
@@ -321,9 +317,7 @@ static int32_t kinect_list(rlf_source_entry *out, int32_t capacity)
 
 static const char *unavailable(void)
 {
-    const char *reason;
-    (void)io_library_get(&library, &reason);
-    return reason;
+    return io_library_fault(&library);
 }
 
 const rlf_backend io_backend_freenect = {

@@ -35,19 +35,15 @@ static io_library library = {
 
 static const char *freenect2_unavailable(void)
 {
-    const char *reason;
-    (void)io_library_get(&library, &reason);
-    return reason;
+    return io_library_fault(&library);
 }
 
 static int32_t freenect2_list(rlf_source_entry *out, int32_t capacity)
 {
-    const char *reason;
-    const freenect2_api *api = io_library_get(&library, &reason);
-    const int count = api != NULL ? api->count() : 0;
+    const int count = functions.count();
     for (int32_t i = 0; i < count && i < capacity; i++) {
         char serial[64] = "";
-        api->serial(i, serial, sizeof(serial));
+        functions.serial(i, serial, sizeof(serial));
         snprintf(out[i].source, sizeof(out[i].source), "freenect2:%s", serial);
         snprintf(out[i].description, sizeof(out[i].description), "Kinect v2, serial %s", serial);
     }
@@ -56,10 +52,7 @@ static int32_t freenect2_list(rlf_source_entry *out, int32_t capacity)
 
 static void freenect2_status(void *self, rlf_source_status *out)
 {
-    const freenect2 *k = self;
-    out->lost = k->count.lost;
-    out->doubled = k->count.doubled;
-    out->unpaired = k->unpaired;
+    io_live_count_tell(&((const freenect2 *)self)->count, out);
 }
 
 static void freenect2_destroy(void *self)
@@ -68,11 +61,9 @@ static void freenect2_destroy(void *self)
     if (k->device != NULL) {
         k->api->close(k->device);
     }
-    kinect2_registration_destroy(&k->registration);
     rlf_free(k->depth);
     rlf_free(k->undistorted);
     rlf_free(k->registered);
-    rlf_free(k->offset);
     rlf_free(k->color.data);
     rlf_free(k);
 }
@@ -120,7 +111,6 @@ static rlf_result make_rig(freenect2 *k, const rlf_address *address)
         k->rig.depth = kinect2_undistorted_camera(&k->ir);
         k->rig.color = k->rig.depth;
         k->rig.T_color_depth = rlf_pose_identity();
-        result = kinect2_registration_create(&k->ir, &k->factory, &k->registration);
     } else {
         rlf_log(RLF_LOG_INFO,
                 "%s: the colour camera fits the factory's mapping to %.2f pixels rms, %.1f at "
@@ -139,9 +129,7 @@ static rlf_result allocate(freenect2 *k)
     if (k->is_aligned) {
         k->undistorted = rlf_alloc_array(KINECT2_DEPTH_PIXELS, sizeof(k->undistorted[0]));
         k->registered = rlf_alloc_array(KINECT2_DEPTH_PIXELS, sizeof(k->registered[0]));
-        k->offset = rlf_alloc_array(KINECT2_DEPTH_PIXELS, sizeof(k->offset[0]));
-        is_complete =
-            is_complete && k->undistorted != NULL && k->registered != NULL && k->offset != NULL;
+        is_complete = is_complete && k->undistorted != NULL && k->registered != NULL;
     }
     return is_complete ? RLF_OK : RLF_ERROR_MEMORY;
 }
@@ -150,16 +138,11 @@ static rlf_result freenect2_open(const rlf_address *address, rlf_opened *out)
 {
     static const rlf_source_methods methods = {
         .next = io_freenect2_next, .destroy = freenect2_destroy, .status = freenect2_status};
-    const char *reason;
-    const freenect2_api *api = io_library_get(&library, &reason);
-    if (api == NULL) {
-        return rlf_fail(RLF_ERROR_UNSUPPORTED, "%s: %s", address->source, reason);
-    }
     freenect2 *k = rlf_alloc(sizeof(*k));
     if (k == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    k->api = api;
+    k->api = &functions;
     k->count.interval_ns = 1000000000 / 30;
     snprintf(k->source, sizeof(k->source), "%.255s", address->source);
     rlf_result result = read_align(k, address);

@@ -43,9 +43,7 @@ static void fill_color(const rlf_image_rgba8 *out, const uint8_t *color, bool is
 
 static void fill_aligned(freenect2 *k, const relief_freenect2_frame *in)
 {
-    const kinect2_registered registered = {k->undistorted, k->registered, k->offset};
-    kinect2_registration_apply(k->registration, in->depth,
-                               (const uint32_t *)(const void *)in->color, &registered);
+    k->api->registration(k->device, k->undistorted, k->registered);
     fill_depth(k, k->undistorted);
     fill_color(&k->color, (const uint8_t *)k->registered, in->color_is_rgbx != 0);
 }
@@ -77,7 +75,7 @@ static rlf_result fill(freenect2 *k, const relief_freenect2_frame *in, rlf_frame
     memset(out, 0, sizeof(*out));
     /* Registration has nothing to look at before the first colour picture. */
     if (k->is_aligned && in->color == NULL) {
-        k->unpaired++;
+        k->count.unpaired++;
         return RLF_NO_FRAME;
     }
     const int64_t gap_ns = (int32_t)(in->color_time - in->depth_time) * (int64_t)TICK_NS;
@@ -90,7 +88,7 @@ static rlf_result fill(freenect2 *k, const relief_freenect2_frame *in, rlf_frame
     } else {
         fill_raw(k, in, has_color);
     }
-    k->unpaired += k->rig.has_color && !has_color ? 1 : 0;
+    k->count.unpaired += k->rig.has_color && !has_color ? 1 : 0;
     out->color = has_color ? k->color : (rlf_image_rgba8){0};
     out->color_time_ns = has_color ? out->time_ns + gap_ns : 0;
     out->depth_f32 = k->depth;

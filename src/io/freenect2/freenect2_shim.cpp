@@ -3,6 +3,7 @@
 
 #include <libfreenect2/libfreenect2.hpp>
 #include <libfreenect2/logger.h>
+#include <libfreenect2/registration.h>
 
 #include <chrono>
 #include <condition_variable>
@@ -30,7 +31,7 @@ constexpr std::chrono::milliseconds color_wait(25);
 // loses every other depth picture when the colour camera slows down in the dark.
 class Newest : public libfreenect2::FrameListener
 {
-public:
+  public:
     bool onNewFrame(Frame::Type type, Frame *frame) override
     {
         if (frame->status != 0 || frame->format == Frame::Raw) {
@@ -65,7 +66,7 @@ public:
         return true;
     }
 
-private:
+  private:
     bool color_fits() const
     {
         return color != nullptr &&
@@ -94,6 +95,7 @@ struct relief_freenect2 {
     Freenect2 library;
     Newest newest;
     std::unique_ptr<Freenect2Device> device;
+    std::unique_ptr<libfreenect2::Registration> registration;
     std::unique_ptr<Frame> depth, color; // given last
 };
 
@@ -144,6 +146,8 @@ try {
         snprintf(out_cause, size, "the Kinect v2 %s does not start", wanted.c_str());
         return nullptr;
     }
+    self->registration.reset(new libfreenect2::Registration(self->device->getIrCameraParams(),
+                                                            self->device->getColorCameraParams()));
     return self.release();
 } catch (const std::exception &error) {
     snprintf(out_cause, size, "%s", error.what());
@@ -177,6 +181,13 @@ int relief_freenect2_wait(relief_freenect2 *self, int timeout_ms, relief_freenec
         out->color_is_rgbx = self->color->format == Frame::RGBX ? 1 : 0;
     }
     return 1;
+}
+
+void relief_freenect2_registration(relief_freenect2 *self, float *out_depth, uint32_t *out_color)
+{
+    Frame depth(512, 424, 4, reinterpret_cast<unsigned char *>(out_depth));
+    Frame color(512, 424, 4, reinterpret_cast<unsigned char *>(out_color));
+    self->registration->apply(self->color.get(), self->depth.get(), &depth, &color);
 }
 
 void relief_freenect2_close(relief_freenect2 *self)

@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-#define RELIEF_FREENECT2_VERSION 1
+#define RELIEF_FREENECT2_VERSION 2
 
 typedef struct relief_freenect2 relief_freenect2;
 
@@ -32,7 +32,9 @@ typedef struct relief_freenect2_frame {
 
 /* F(result, name without relief_freenect2_, parameters)
  * count: plugged-in cameras. serial: of one of them, 0 when there is no such. open: NULL on
- * failure, with the cause. wait: 1 = a frame, 0 = none in time, -1 = the camera failed. */
+ * failure, with the cause. wait: 1 = a frame, 0 = none in time, -1 = the camera failed.
+ * registration: of the pictures given last, which have colour, what libfreenect2's Registration
+ * makes, 512 x 424 each: depth without the lens's distortion, and the colour of its pixels. */
 #define RELIEF_FREENECT2_FUNCTIONS(F)                                                              \
     F(int, version, (void))                                                                        \
     F(int, count, (void))                                                                          \
@@ -40,6 +42,7 @@ typedef struct relief_freenect2_frame {
     F(relief_freenect2 *, open, (const char *serial, char *out_cause, size_t size))                \
     F(void, get_calibration, (relief_freenect2 *, relief_freenect2_calibration * out))             \
     F(int, wait, (relief_freenect2 *, int timeout_ms, relief_freenect2_frame *out))                \
+    F(void, registration, (relief_freenect2 *, float *out_depth, uint32_t *out_color))             \
     F(void, close, (relief_freenect2 *))
 
 #define RELIEF_FREENECT2_DECLARE(result, name, parameters)                                         \

@@ -26,6 +26,38 @@ typedef struct sample {
     double u, v;    /* in the colour picture */
 } sample;
 
+/* Scales of the factory's polynomial: depth pixels and colour pixels to its units. */
+static const float depth_scale = 0.01F;
+static const float color_scale = 0.002199F;
+
+/* The factory's cubics: x of the colour picture in units of its focal length without parallax, and
+ * y in pixels. */
+static void map_pixel(const kinect2_ir *ir, const kinect2_color *color, float u, float v,
+                      float out[2])
+{
+    const float a = (u - ir->cx) * depth_scale;
+    const float b = (v - ir->cy) * depth_scale;
+    const float terms[10] = {a * a * a, b * b * b, a * a * b, b * b * a, a * a,
+                             b * b,     a * b,     a,         b,         1.0F};
+    float sum_x = terms[0] * color->mx[0];
+    float sum_y = terms[0] * color->my[0];
+    for (int i = 1; i < 10; i++) {
+        sum_x = sum_x + terms[i] * color->mx[i];
+        sum_y = sum_y + terms[i] * color->my[i];
+    }
+    out[0] = sum_x / (color->fx * color_scale) - color->shift_m / color->shift_d;
+    out[1] = sum_y / color_scale + color->cy;
+}
+
+void kinect2_project(const kinect2_ir *ir, const kinect2_color *color, float u, float v, float z,
+                     float out[2])
+{
+    float mapped[2];
+    map_pixel(ir, color, u, v, mapped);
+    out[0] = (mapped[0] + color->shift_m / z) * color->fx + color->cx;
+    out[1] = mapped[1];
+}
+
 static double mirror(double x, int width)
 {
     return width - 1 - x;

@@ -110,7 +110,6 @@ typedef struct k4a {
     rlf_image_rgba8 color;
     k4a_image_t held; /* the depth picture that was given last; the library's */
     io_live_count count;
-    uint64_t damaged, unpaired;
 } k4a;
 
 /* Modes of the camera that are asked for; the defaults where 0. */

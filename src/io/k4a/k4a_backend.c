@@ -23,9 +23,7 @@ static io_library library = {
 
 static const char *k4a_unavailable(void)
 {
-    const char *reason;
-    (void)io_library_get(&library, &reason);
-    return reason;
+    return io_library_fault(&library);
 }
 
 static void read_serial(const k4a_api *api, k4a_device_t device, char out[64])
@@ -40,9 +38,8 @@ static void read_serial(const k4a_api *api, k4a_device_t device, char out[64])
 /* Only an open camera tells its serial number; another program may have it. */
 static int32_t k4a_list(rlf_source_entry *out, int32_t capacity)
 {
-    const char *reason;
-    const k4a_api *api = io_library_get(&library, &reason);
-    const uint32_t count = api != NULL ? api->device_get_installed_count() : 0;
+    const k4a_api *api = &functions;
+    const uint32_t count = api->device_get_installed_count();
     for (uint32_t i = 0; i < count && (int64_t)i < capacity; i++) {
         char serial[64] = "";
         k4a_device_t device = NULL;
@@ -62,11 +59,7 @@ static int32_t k4a_list(rlf_source_entry *out, int32_t capacity)
 
 static void k4a_status(void *self, rlf_source_status *out)
 {
-    const k4a *k = self;
-    out->lost = k->count.lost;
-    out->doubled = k->count.doubled;
-    out->unpaired = k->unpaired;
-    out->damaged = k->damaged;
+    io_live_count_tell(&((const k4a *)self)->count, out);
 }
 
 static void k4a_destroy(void *self)
@@ -137,16 +130,11 @@ static rlf_result k4a_open(const rlf_address *address, rlf_opened *out)
 {
     static const rlf_source_methods methods = {
         .next = io_k4a_next, .destroy = k4a_destroy, .status = k4a_status};
-    const char *reason;
-    const k4a_api *api = io_library_get(&library, &reason);
-    if (api == NULL) {
-        return rlf_fail(RLF_ERROR_UNSUPPORTED, "%s: %s", address->source, reason);
-    }
     k4a *k = rlf_alloc(sizeof(*k));
     if (k == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    k->api = api;
+    k->api = &functions;
     snprintf(k->source, sizeof(k->source), "%.255s", address->source);
     rlf_result result = start(k, address);
     io_live_opened(&methods, k, k->source, &k->rig, k->frames_per_second, out);

@@ -31,7 +31,7 @@ static rlf_result fill_depth(k4a *k, k4a_image_t image, rlf_frame *out)
                            .size = k->api->image_get_size(image)};
     if (!has_size(k, image, camera) || raw.step < 1 ||
         io_pixels_check(&raw, 2, raw.height) != RLF_OK) {
-        k->damaged++;
+        k->count.damaged++;
         return RLF_NO_FRAME;
     }
     out->depth_u16 = (const uint16_t *)(const void *)raw.data;
@@ -68,11 +68,11 @@ static bool decode(k4a *k, k4a_image_t image)
 static void fill_color(k4a *k, k4a_image_t image, rlf_frame *out)
 {
     if (image == NULL) {
-        k->unpaired++;
+        k->count.unpaired++;
         return;
     }
     if (!has_size(k, image, &k->rig.color) || !decode(k, image)) {
-        k->damaged++;
+        k->count.damaged++;
         return;
     }
     out->color = k->color;

@@ -49,7 +49,7 @@ rlf_result live_describe(io_live *l)
         result = rlf_camera_check(&rig->color, l->name);
     }
     for (int32_t i = 0; i < LIVE_SLOTS && result == RLF_OK; i++) {
-        result = live_slot_create(rig, &l->slots[i]);
+        result = io_frame_copy_create(rig, &l->slots[i]);
     }
     if (result == RLF_OK) {
         pthread_mutex_lock(&l->mutex);
@@ -176,7 +176,7 @@ static void take_frame(io_live *l, rlf_frame *frame)
     const bool is_new = live_follow_frame(&l->follow, now_ns, frame, &lost);
     const bool is_good = is_new && rlf_frame_check(&l->info.rig, frame, l->name) == RLF_OK;
     if (is_good) {
-        live_slot_copy(&l->slots[l->filled], &l->info.rig, frame);
+        io_frame_copy_set(&l->slots[l->filled], &l->info.rig, frame);
     }
     pthread_mutex_lock(&l->mutex);
     snprintf(l->refused, sizeof(l->refused), "%s", is_new && !is_good ? rlf_error_text() : "");

@@ -56,7 +56,7 @@ static rlf_result take(io_live *l, rlf_frame *out)
     rlf_result result = l->outcome;
     result = result == RLF_OK ? rlf_frame_check(&l->info.rig, &l->answer, l->name) : result;
     if (result == RLF_OK) {
-        live_slot_copy(&l->slots[0], &l->info.rig, &l->answer);
+        io_frame_copy_set(&l->slots[0], &l->info.rig, &l->answer);
         *out = l->slots[0].frame;
     }
     return result;

@@ -1,5 +1,6 @@
 /* What all live cameras need. */
 #include "io/live/driver.h"
+#include "io/calibration/calibration.h"
 #include "io/clip/clip.h"
 
 #include <math.h>
@@ -97,30 +98,31 @@ rlf_result io_live_use_rig(const rlf_address *address, rlf_rig *rig)
 }
 
 /* Deviation from a rotation that single precision and a calibration's rounding can cause. */
-#define ROTATION_TOLERANCE 1e-3
+#define ROTATION_TOLERANCE 2e-3
 
 bool io_live_pose(const float rotation[9], const float translation[3], double metres, rlf_pose *out)
 {
-    rlf_mat3 r;
+    double rows[9];
     for (int i = 0; i < 9; i++) {
-        r.m[i / 3][i % 3] = (double)rotation[i];
+        rows[i] = (double)rotation[i];
     }
-    out->q = rlf_quat_normalize(rlf_quat_from_mat3(&r));
     out->p = rlf_scale(
         rlf_vec3_make((double)translation[0], (double)translation[1], (double)translation[2]),
         metres);
-    const rlf_mat3 exact = rlf_quat_to_mat3(out->q);
-    for (int i = 0; i < 9; i++) {
-        if (!(fabs(exact.m[i / 3][i % 3] - r.m[i / 3][i % 3]) < ROTATION_TOLERANCE)) {
-            return false;
-        }
-    }
-    return rlf_vec3_is_finite(out->p);
+    return io_rotation_read(rows, ROTATION_TOLERANCE, &out->q) && rlf_vec3_is_finite(out->p);
 }
 
 int64_t io_live_time(uint64_t microseconds)
 {
     return microseconds <= RLF_TIME_MAX_NS / 1000 ? (int64_t)microseconds * 1000 : 0;
+}
+
+void io_live_count_tell(const io_live_count *c, rlf_source_status *out)
+{
+    out->lost = c->lost;
+    out->doubled = c->doubled;
+    out->unpaired = c->unpaired;
+    out->damaged = c->damaged;
 }
 
 bool io_live_count_frame(io_live_count *c, uint64_t number, int64_t time_ns, rlf_frame *out)

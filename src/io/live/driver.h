@@ -51,6 +51,7 @@ typedef struct io_live_count {
     bool is_restarted;   /* set by the caller: the next frame's time is of another clock */
     uint64_t sequence;
     uint64_t lost, doubled;
+    uint64_t damaged, unpaired; /* counted by the caller */
 } io_live_count;
 
 /* A device's microseconds in nanoseconds; 0 for more than RLF_TIME_MAX_NS. */
@@ -60,6 +61,9 @@ int64_t io_live_time(uint64_t microseconds);
  * False when the frame is the last one again: it must not be given. A count or a time that goes
  * back is a device that started anew. */
 bool io_live_count_frame(io_live_count *c, uint64_t number, int64_t time_ns, rlf_frame *out);
+
+/* The counts, as a source tells them. */
+void io_live_count_tell(const io_live_count *c, rlf_source_status *out);
 
 /* For devices without a count: told from the gap of two times and the nominal interval. */
 bool io_live_count_time(io_live_count *c, int64_t time_ns, rlf_frame *out);
@@ -89,9 +93,10 @@ typedef struct io_library {
     char reason[320];
 } io_library;
 
-/* The table of the library, which is loaded when it is first asked for, and stays: drivers leave
- * threads behind. NULL: a line in *out_reason says what is missing and what to do. Thread-safe. */
-const void *io_library_get(io_library *library, const char **out_reason);
+/* A driver's `unavailable`: NULL, and the table is filled, or a line that says what is missing and
+ * what to do. The library is loaded when it is first asked for, and stays: drivers leave threads
+ * behind. Relief asks before it lists or opens. Thread-safe. */
+const char *io_library_fault(io_library *library);
 
 /* ---- A lens model from the fields of view that a device or a file tells ---- */
 

@@ -89,7 +89,7 @@ static bool load(io_library *l)
     return problem == NULL;
 }
 
-const void *io_library_get(io_library *l, const char **out_reason)
+const char *io_library_fault(io_library *l)
 {
     pthread_mutex_lock(&lock);
     if (!l->is_tried) {
@@ -97,6 +97,5 @@ const void *io_library_get(io_library *l, const char **out_reason)
         l->is_loaded = load(l);
     }
     pthread_mutex_unlock(&lock);
-    *out_reason = l->is_loaded ? NULL : l->reason;
-    return l->is_loaded ? l->table : NULL;
+    return l->is_loaded ? NULL : l->reason;
 }

@@ -2,6 +2,7 @@
 #ifndef RLF_IO_LIVE_LIVE_H
 #define RLF_IO_LIVE_LIVE_H
 
+#include "io/clip/clip.h"
 #include "relief/backend.h"
 #include "relief/frame.h"
 
@@ -48,20 +49,6 @@ void live_follow_reconnect(live_follow *follow);
  * came twice. *out_lost: frames that the device made since the last one and nobody got. */
 bool live_follow_frame(live_follow *follow, int64_t host_ns, rlf_frame *frame, uint64_t *out_lost);
 
-/* ---- Room for one frame of a camera, kept while its driver goes on ---- */
-
-typedef struct live_slot {
-    rlf_frame frame; /* its planes are the slot's */
-    void *depth;     /* of either kind */
-    uint8_t *color, *confidence;
-} live_slot;
-
-rlf_result live_slot_create(const rlf_rig *rig, live_slot *out);
-void live_slot_destroy(live_slot *slot);
-
-/* A frame that rlf_frame_check allows. */
-void live_slot_copy(live_slot *slot, const rlf_rig *rig, const rlf_frame *frame);
-
 /* ---- What a live source's reader and its capture thread share ---- */
 
 #define LIVE_SECOND_NS INT64_C(1000000000)
@@ -92,7 +79,7 @@ typedef struct io_live {
     /* Shared, guarded by the mutex; a slot belongs to who has its index. */
     pthread_mutex_t mutex;
     pthread_cond_t news;
-    live_slot slots[LIVE_SLOTS];
+    io_frame_copy slots[LIVE_SLOTS];
     int32_t newest, given; /* the other two slots */
     bool has_newest;       /* the reader has not had it */
     bool is_described;     /* methods' info is known, the slots are there: constant from then on */

@@ -20,40 +20,12 @@ typedef struct simulated_faults {
     int32_t drop, doubled;        /* every n-th frame is lost, comes twice; 0 = none */
 } simulated_faults;
 
-#define TIME_MAX_S 1e6
-#define EVERY_MAX 1000000
+#define NUMBER_MAX 1e6
 
 static rlf_result fail_key(const rlf_address *address, const char *key, const char *cure)
 {
     return rlf_fail(RLF_ERROR_INVALID, "%s: %s=%.40s: use %s", address->source, key,
                     rlf_address_get(address, key), cure);
-}
-
-static rlf_result parse_time(const rlf_address *address, const char *key, double *out)
-{
-    const char *text = rlf_address_get(address, key);
-    char rest;
-    if (text == NULL) {
-        return RLF_OK;
-    }
-    const bool is_good =
-        sscanf(text, "%lf%c", out, &rest) == 1 && *out >= 0.0 && *out <= TIME_MAX_S;
-    return is_good ? RLF_OK : fail_key(address, key, "seconds, 0 to 1000000");
-}
-
-static rlf_result parse_every(const rlf_address *address, const char *key, int32_t *out)
-{
-    const char *text = rlf_address_get(address, key);
-    char rest;
-    double value = 0.0;
-    if (text == NULL) {
-        return RLF_OK;
-    }
-    if (sscanf(text, "%lf%c", &value, &rest) != 1 || !(value >= 2.0) || value > EVERY_MAX) {
-        return fail_key(address, key, "a number of frames, 2 to 1000000");
-    }
-    *out = (int32_t)value;
-    return RLF_OK;
 }
 
 static rlf_result parse_stall(const rlf_address *address, simulated_faults *out)
@@ -64,26 +36,41 @@ static rlf_result parse_stall(const rlf_address *address, simulated_faults *out)
         return RLF_OK;
     }
     const bool is_good = sscanf(text, "%lf@%lf%c", &out->stall_s, &out->stall_from_s, &rest) == 2 &&
-                         out->stall_s > 0.0 && out->stall_s <= TIME_MAX_S &&
-                         out->stall_from_s >= 0.0 && out->stall_from_s <= TIME_MAX_S;
+                         out->stall_s > 0.0 && out->stall_s <= NUMBER_MAX &&
+                         out->stall_from_s >= 0.0 && out->stall_from_s <= NUMBER_MAX;
     return is_good ? RLF_OK : fail_key(address, "stall", "SECONDS@WHEN, e.g. 2@10");
 }
 
-/* Keys unplug_after, replug_after, stall, hang, time_back, jitter, drop, doubled. */
 static rlf_result parse_faults(const rlf_address *address, simulated_faults *out)
 {
+    static const char seconds[] = "seconds, 0 to 1000000";
+    static const char frames[] = "a number of frames, 2 to 1000000";
     *out = (simulated_faults){.unplug_s = -1, .replug_s = -1, .hang_s = -1, .time_back_s = -1};
-    double jitter_ms = 0.0;
-    rlf_result result = parse_time(address, "unplug_after", &out->unplug_s);
-    result = result == RLF_OK ? parse_time(address, "replug_after", &out->replug_s) : result;
-    result = result == RLF_OK ? parse_stall(address, out) : result;
-    result = result == RLF_OK ? parse_time(address, "hang", &out->hang_s) : result;
-    result = result == RLF_OK ? parse_time(address, "time_back", &out->time_back_s) : result;
-    result = result == RLF_OK ? parse_time(address, "jitter", &jitter_ms) : result;
-    result = result == RLF_OK ? parse_every(address, "drop", &out->drop) : result;
-    result = result == RLF_OK ? parse_every(address, "doubled", &out->doubled) : result;
+    double jitter_ms = 0.0, drop = 0.0, doubled = 0.0;
+    const struct {
+        const char *key;
+        double low;
+        const char *cure;
+        double *out;
+    } keys[] = {{"unplug_after", 0, seconds, &out->unplug_s},
+                {"replug_after", 0, seconds, &out->replug_s},
+                {"hang", 0, seconds, &out->hang_s},
+                {"time_back", 0, seconds, &out->time_back_s},
+                {"jitter", 0, seconds, &jitter_ms},
+                {"drop", 2, frames, &drop},
+                {"doubled", 2, frames, &doubled}};
+    for (size_t i = 0; i < sizeof(keys) / sizeof(keys[0]); i++) {
+        const char *text = rlf_address_get(address, keys[i].key);
+        char rest;
+        if (text != NULL && (sscanf(text, "%lf%c", keys[i].out, &rest) != 1 ||
+                             !(*keys[i].out >= keys[i].low) || *keys[i].out > NUMBER_MAX)) {
+            return fail_key(address, keys[i].key, keys[i].cure);
+        }
+    }
     out->jitter_s = jitter_ms * 1e-3;
-    return result;
+    out->drop = (int32_t)drop;
+    out->doubled = (int32_t)doubled;
+    return parse_stall(address, out);
 }
 
 static bool is_plugged(const simulated_faults *f, double time_s)

@@ -81,7 +81,7 @@ void live_wait(io_live *l, int64_t until_ns)
 static void free_live(io_live *l)
 {
     for (int32_t i = 0; i < LIVE_SLOTS; i++) {
-        live_slot_destroy(&l->slots[i]);
+        io_frame_copy_destroy(&l->slots[i]);
     }
     free_address(&l->address);
     pthread_cond_destroy(&l->news);

@@ -3,9 +3,8 @@
 #include "io/clip/sink.h"
 
 #include "io/clip/clip.h"
-#include "io/mcap/format.h"
-#include "io/ros/frame_write.h"
-#include "io/mcap/write.h"
+#include "io/mcap/mcap.h"
+#include "io/ros/write.h"
 
 #include <stdio.h>
 #include <time.h>
@@ -284,7 +283,7 @@ static rlf_result mcap_close(void *self, rlf_recording_status *status)
 rlf_result io_mcap_sink_open(const char *path, const rlf_source_info *info,
                              const rlf_recording_def *def, io_sink *out)
 {
-    static const io_mcap_compression compressions[3] = {IO_MCAP_ZSTD, IO_MCAP_LZ4, IO_MCAP_PLAIN};
+    static const io_packing packings[3] = {IO_PACKING_ZSTD, IO_PACKING_LZ4, IO_PACKING_NONE};
     mcap_sink *s = rlf_alloc(sizeof(*s));
     if (s == NULL) {
         return RLF_ERROR_MEMORY;
@@ -293,7 +292,7 @@ rlf_result io_mcap_sink_open(const char *path, const rlf_source_info *info,
     s->def = *def;
     rlf_result result = io_ros_encoder_init(&s->encoder, &info->rig, def);
     if (result == RLF_OK) {
-        result = io_mcap_writer_create(path, compressions[def->compression], &s->writer);
+        result = io_mcap_writer_create(path, packings[def->compression], &s->writer);
     }
     if (result != RLF_OK) {
         io_ros_encoder_free(&s->encoder);

@@ -1,7 +1,6 @@
 /* MCAP files as a source: Relief's own recordings, and anybody's ROS 2 recordings of a depth
  * camera. */
-#include "io/mcap/read.h"
-#include "io/mcap/format.h"
+#include "io/mcap/mcap.h"
 #include "io/ros/recording.h"
 #include "io/source/backends.h"
 
@@ -12,10 +11,10 @@
 /* ---- what a recording of Relief's own says beside its pictures --------------------------- */
 
 /* The channel of that type and topic that has messages; -1 = none. */
-static int32_t find_topic(const io_mcap_reader *reader, io_ros_type type, const char *topic)
+static int32_t find_topic(const io_ros_log *log, io_ros_type type, const char *topic)
 {
-    for (int32_t i = 0; i < io_mcap_channel_count(reader); i++) {
-        const io_mcap_channel *c = io_mcap_channel_at(reader, i);
+    for (int32_t i = 0; i < log->channel_count; i++) {
+        const io_ros_channel *c = &log->channels[i];
         if (c->type == type && strcmp(c->topic, topic) == 0 && c->count > 0) {
             return i;
         }
@@ -51,17 +50,16 @@ static void read_origin(const io_mcap_reader *reader, io_clip_origin *out)
 }
 
 /* The notes of its frames, in a new array that *origin borrows; NULL when there are none. */
-static io_frame_note *read_notes(io_mcap_reader *reader, io_clip_origin *origin)
+static io_frame_note *read_notes(const io_ros_log *log, io_clip_origin *origin)
 {
-    const int32_t index = find_topic(reader, IO_ROS_STRING, IO_TOPIC_FRAME);
-    const io_mcap_channel *c = index >= 0 ? io_mcap_channel_at(reader, index) : NULL;
-    io_frame_note *notes =
-        c != NULL && origin->has_notes ? rlf_alloc_array((size_t)c->count, sizeof(notes[0])) : NULL;
+    const int32_t index = find_topic(log, IO_ROS_STRING, IO_TOPIC_FRAME);
+    const int32_t most = index >= 0 && origin->has_notes ? log->channels[index].count : 0;
+    io_frame_note *notes = most > 0 ? rlf_alloc_array((size_t)most, sizeof(notes[0])) : NULL;
     int32_t count = 0;
-    for (int32_t i = 0; notes != NULL && i < c->count; i++) {
+    for (int32_t i = 0; notes != NULL && i < most; i++) {
         io_cdr_reader message;
         char text[IO_FRAME_NOTE_TEXT];
-        const bool is_read = io_mcap_read(reader, c->first + i, &message) == RLF_OK &&
+        const bool is_read = io_ros_log_read(log, index, i, &message) == RLF_OK &&
                              io_ros_read_string(message, text, sizeof(text)) &&
                              io_frame_note_parse(text, &notes[count]);
         count += is_read ? 1 : 0;
@@ -78,22 +76,6 @@ typedef struct mcap {
     io_mcap_reader *reader;
 } mcap;
 
-static io_ros_channel channel_at(void *self, int32_t index)
-{
-    const io_mcap_channel *c = io_mcap_channel_at(self, index);
-    return (io_ros_channel){c->topic, c->type, c->first, c->count};
-}
-
-static int64_t time_of(void *self, int32_t message)
-{
-    return io_mcap_message_at(self, message)->time_ns;
-}
-
-static rlf_result read_message(void *self, int32_t message, io_cdr_reader *out)
-{
-    return io_mcap_read(self, message, out);
-}
-
 static void mcap_destroy(void *self)
 {
     mcap *m = self;
@@ -108,23 +90,20 @@ static void mcap_destroy(void *self)
  * the file has no poses. */
 static rlf_pose *poses_of(mcap *m, const io_shots *shots)
 {
-    const int32_t index = find_topic(m->reader, IO_ROS_POSE_STAMPED, IO_TOPIC_POSE);
+    const io_ros_log *log = &m->ros.log;
+    const int32_t index = find_topic(log, IO_ROS_POSE_STAMPED, IO_TOPIC_POSE);
     rlf_pose *poses = index >= 0 ? rlf_alloc_array((size_t)shots->count, sizeof(poses[0])) : NULL;
-    if (poses == NULL) {
-        return NULL;
-    }
-    const io_mcap_channel *c = io_mcap_channel_at(m->reader, index);
     int32_t at = 0;
-    for (int32_t i = 0; i < shots->count; i++) {
+    for (int32_t i = 0; poses != NULL && i < shots->count; i++) {
+        const int32_t count = log->channels[index].count;
         const int64_t time_ns = shots->items[i].time_ns;
-        while (at < c->count && io_mcap_message_at(m->reader, c->first + at)->time_ns < time_ns) {
+        while (at < count && io_ros_log_at(log, index, at)->time_ns < time_ns) {
             at++;
         }
         io_cdr_reader message;
         io_ros_header header;
-        const bool is_there = at < c->count &&
-                              io_mcap_message_at(m->reader, c->first + at)->time_ns == time_ns &&
-                              io_mcap_read(m->reader, c->first + at, &message) == RLF_OK &&
+        const bool is_there = at < count && io_ros_log_at(log, index, at)->time_ns == time_ns &&
+                              io_ros_log_read(log, index, at, &message) == RLF_OK &&
                               io_ros_read_pose(message, &header, &poses[i]);
         if (!is_there) {
             memset(&poses[i], 0, sizeof(poses[i]));
@@ -167,7 +146,7 @@ static rlf_result open_clip(const rlf_address *address, mcap *m, bool is_own, rl
         read_origin(m->reader, &def.origin);
     }
     rlf_pose *poses = poses_of(m, &m->ros.depth.shots);
-    io_frame_note *notes = read_notes(m->reader, &def.origin);
+    io_frame_note *notes = read_notes(&m->ros.log, &def.origin);
     def.poses = poses;
     rlf_result result = io_ros_open_clip(&m->ros, address, &def, out);
     rlf_free(poses);
@@ -177,13 +156,6 @@ static rlf_result open_clip(const rlf_address *address, mcap *m, bool is_own, rl
 
 static rlf_result open_recording(const rlf_address *address, mcap *m, rlf_opened *out)
 {
-    m->ros.log = (io_ros_log){.name = m->path,
-                              .strangers = io_mcap_strangers(m->reader),
-                              .channel_count = io_mcap_channel_count(m->reader),
-                              .self = m->reader,
-                              .channel = channel_at,
-                              .time = time_of,
-                              .read = read_message};
     const bool is_own = io_mcap_metadata(m->reader, IO_KEY_UNITS) != NULL;
     rlf_result result = io_ros_prepare(&m->ros, address);
     if (result == RLF_OK && is_own && address->rig == NULL) {
@@ -196,7 +168,8 @@ static rlf_result open_recording(const rlf_address *address, mcap *m, rlf_opened
 static rlf_result open_all(const rlf_address *address, mcap *m, rlf_opened *out)
 {
     snprintf(m->path, sizeof(m->path), "%s", address->place);
-    rlf_result result = io_mcap_reader_open(m->path, &m->reader);
+    m->ros.log.name = m->path;
+    rlf_result result = io_mcap_reader_open(m->path, &m->ros.log, &m->reader);
     return result == RLF_OK ? open_recording(address, m, out) : result;
 }
 

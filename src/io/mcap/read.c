@@ -1,200 +1,198 @@
-/* Reading MCAP files: opening, and messages out of them. */
-#include "io/mcap/read.h"
+/* Reading MCAP files: chunks, and messages out of them. */
+#include "io/mcap/mcap.h"
 
-/* ---- open and close ------------------------------------------------------------------------- */
+#include <zlib.h>
+#include <zstd.h>
 
-static void forget(io_mcap_reader *reader)
+/* No chunk larger than this is read: it is what bounds the memory. */
+#define CHUNK_MAX ((uint64_t)256 << 20)
+/* The most that is in front of a chunk's bytes: numbers, and the name of the compression. */
+#define CHUNK_HEAD_MAX (IO_MCAP_RECORD_HEAD + 8 + 8 + 8 + 4 + 4 + 16 + 8)
+/* lz4 shrinks at most 255 times (its length bytes), and a frame has a head. */
+#define LZ4_RATIO_MAX 255
+
+/* ---- bytes of the file ----------------------------------------------------------------------- */
+
+bool io_mcap_read_at(const io_mcap_reader *reader, uint64_t offset, void *out, size_t size)
 {
-    reader->schemas.count = 0;
-    reader->channels.count = 0;
-    reader->chunks.count = 0;
-    reader->messages.count = 0;
-    reader->bad_chunks = 0;
-    reader->strangers[0] = '\0';
-    for (int i = 0; i < IO_MCAP_CACHED; i++) {
-        reader->cache[i].chunk = -1;
-    }
+    const uint64_t whole = (uint64_t)reader->file.size;
+    return offset <= whole && size <= whole - offset &&
+           io_file_read_at(&reader->file, (int64_t)offset, out, size) == size;
 }
 
-static void tell_scan(const io_mcap_reader *reader, io_mcap_summary summary, uint64_t end)
+rlf_result io_mcap_read_block(const io_mcap_reader *reader, uint64_t offset, uint64_t size,
+                              io_buffer *buffer)
 {
-    const int chunks = (int)(reader->chunks.count - reader->bad_chunks);
-    if (summary == IO_MCAP_SUMMARY_NOT_CLOSED) {
-        rlf_log(RLF_LOG_WARNING,
-                "%s: was not closed as it should have been: its %d whole chunks, and %d messages, "
-                "were found by reading all of it",
-                reader->file.path, chunks, (int)reader->messages.count);
-    } else if (summary == IO_MCAP_SUMMARY_DAMAGED || !reader->is_to_end) {
-        rlf_log(RLF_LOG_WARNING,
-                "%s: is damaged (byte %llu of %llu): its %d whole chunks, and %d messages, were "
-                "found by reading all of it",
-                reader->file.path, (unsigned long long)end, (unsigned long long)reader->size,
-                chunks, (int)reader->messages.count);
+    const uint64_t whole = (uint64_t)reader->file.size;
+    if (offset > whole || size > whole - offset) {
+        return RLF_ERROR_FORMAT;
     }
+    rlf_result result = io_buffer_reserve(buffer, size > 0 ? (size_t)size : 1);
+    if (result == RLF_OK && !io_mcap_read_at(reader, offset, buffer->data, (size_t)size)) {
+        result = RLF_ERROR_IO;
+    }
+    return result;
 }
 
-static rlf_result list_all(io_mcap_reader *reader)
+/* ---- chunks --------------------------------------------------------------------------------- */
+
+typedef struct chunk_head {
+    uint64_t plain_size, packed_size;
+    uint64_t packed_at; /* in the file */
+    uint32_t crc;       /* 0 = none */
+    io_packing packing;
+} chunk_head;
+
+/* Says what is wrong, or returns NULL. */
+static const char *read_head(const io_mcap_reader *reader, uint64_t offset, chunk_head *out)
 {
-    forget(reader);
-    const io_mcap_summary summary = io_mcap_read_summary(reader);
-    if (summary != IO_MCAP_SUMMARY_READ) {
-        uint64_t end = 0;
-        forget(reader);
-        if (!io_mcap_scan(reader, &end)) {
-            return rlf_fail(RLF_ERROR_FORMAT,
-                            "%s: is not an MCAP file, or has less than its first bytes: record it "
-                            "again",
-                            reader->file.path);
+    uint8_t bytes[CHUNK_HEAD_MAX];
+    char packing[16];
+    const uint64_t left = (uint64_t)reader->file.size - offset;
+    const size_t size = left < CHUNK_HEAD_MAX ? (size_t)left : CHUNK_HEAD_MAX;
+    cursor c = {bytes, io_mcap_read_at(reader, offset, bytes, size) ? size : 0, false};
+    const uint8_t op = cursor_u8(&c);
+    const uint64_t record = cursor_u64(&c);
+    cursor_take(&c, 16);
+    out->plain_size = cursor_u64(&c);
+    out->crc = cursor_u32(&c);
+    cursor_text(&c, packing, sizeof(packing));
+    out->packed_size = cursor_u64(&c);
+    if (c.is_short || op != IO_MCAP_CHUNK) {
+        return "its head is damaged";
+    }
+    const uint64_t head = (uint64_t)(c.data - bytes) - IO_MCAP_RECORD_HEAD;
+    out->packed_at = offset + IO_MCAP_RECORD_HEAD + head;
+    if (record < head || out->packed_size > record - head ||
+        out->packed_size > (uint64_t)reader->file.size - out->packed_at) {
+        return "it is cut short";
+    }
+    out->packing = IO_PACKING_NONE;
+    while (strcmp(packing, io_mcap_packing_name(out->packing)) != 0) {
+        if (++out->packing == IO_PACKING_BZ2) {
+            return "its compression is neither zstd nor lz4";
         }
-        tell_scan(reader, summary, end);
     }
-    if (reader->is_full) {
-        rlf_log(RLF_LOG_WARNING, "%s: has more than %d messages: the rest is left out",
-                reader->file.path, IO_MCAP_MESSAGES_MAX);
+    return out->plain_size > CHUNK_MAX || out->packed_size > CHUNK_MAX ? "it is larger than 256 MiB"
+                                                                       : NULL;
+}
+
+/* Whether the bytes could be that many once unpacked, as far as their head tells: asked before
+ * memory is taken for them. */
+static bool can_become(const chunk_head *head, const uint8_t *data)
+{
+    if (head->packing == IO_PACKING_NONE) {
+        return head->packed_size == head->plain_size;
     }
-    io_mcap_sort(reader);
-    return reader->lacks_memory
-               ? rlf_fail(RLF_ERROR_MEMORY, "%s: out of memory for its index", reader->file.path)
-               : RLF_OK;
-}
-
-rlf_result io_mcap_reader_open(const char *path, io_mcap_reader **out)
-{
-    *out = NULL;
-    io_mcap_reader *reader = rlf_alloc(sizeof(*reader));
-    if (reader == NULL) {
-        return RLF_ERROR_MEMORY;
+    if (head->packing == IO_PACKING_LZ4) {
+        return head->plain_size / LZ4_RATIO_MAX <= head->packed_size;
     }
-    rlf_result result = io_file_open(&reader->file, path, "check the name");
-    reader->size = (uint64_t)reader->file.size;
-    result = result == RLF_OK ? io_mcap_compressor_create(&reader->compressor) : result;
-    result = result == RLF_OK ? list_all(reader) : result;
-    if (result != RLF_OK) {
-        io_mcap_reader_close(&reader);
-        return result;
+    const unsigned long long said = ZSTD_getFrameContentSize(data, (size_t)head->packed_size);
+    return said == ZSTD_CONTENTSIZE_UNKNOWN || said == head->plain_size;
+}
+
+static const char *unpack_into(io_mcap_reader *reader, const chunk_head *head, io_ros_unpacked *out)
+{
+    if (io_mcap_read_block(reader, head->packed_at, head->packed_size, &reader->packed) != RLF_OK) {
+        return "it cannot be read";
     }
-    *out = reader;
-    return RLF_OK;
-}
-
-void io_mcap_reader_close(io_mcap_reader **reader)
-{
-    io_mcap_reader *r = *reader;
-    *reader = NULL;
-    if (r == NULL) {
-        return;
+    if (!can_become(head, reader->packed.data)) {
+        return "its sizes contradict each other";
     }
-    io_file_close(&r->file);
-    io_mcap_compressor_destroy(&r->compressor);
-    rlf_free(r->schemas.items);
-    rlf_free(r->channels.items);
-    rlf_free(r->chunks.items);
-    rlf_free(r->messages.items);
-    io_buffer_free(&r->packed);
-    io_buffer_free(&r->loose);
-    io_buffer_free(&r->plain);
-    for (int i = 0; i < IO_MCAP_CACHED; i++) {
-        io_buffer_free(&r->cache[i].buffer);
+    out->size = (size_t)head->plain_size;
+    if (io_buffer_reserve(&out->bytes, out->size > 0 ? out->size : 1) != RLF_OK) {
+        return "there is not enough memory for it";
     }
-    rlf_free(r);
+    if (!io_unpack(head->packing, reader->packed.data, (size_t)head->packed_size, out->bytes.data,
+                   out->size)) {
+        return "it cannot be decompressed";
+    }
+    const bool is_right =
+        head->crc == 0 || head->crc == (uint32_t)crc32_z(0, out->bytes.data, out->size);
+    return is_right ? NULL : "its CRC is wrong";
 }
 
-/* ---- what others ask ------------------------------------------------------------------------ */
-
-int32_t io_mcap_channel_count(const io_mcap_reader *reader)
+bool io_mcap_load_chunk(io_mcap_reader *reader, int32_t index, cursor *out)
 {
-    return reader->channels.count;
+    io_mcap_chunk *chunk = &reader->chunks[index];
+    io_ros_unpacked *place = io_ros_cache_find(&reader->cache, index);
+    if (chunk->is_bad) {
+        return false;
+    }
+    if (place->chunk1 == 0) {
+        chunk_head head;
+        const char *problem = read_head(reader, chunk->offset, &head);
+        problem = problem == NULL ? unpack_into(reader, &head, place) : problem;
+        chunk->is_bad = problem != NULL;
+        if (chunk->is_bad && reader->bad_chunks++ == 0) {
+            rlf_log(RLF_LOG_WARNING,
+                    "%s: the chunk at byte %llu is left out: %s; the same goes for others like it",
+                    reader->file.path, (unsigned long long)chunk->offset, problem);
+        }
+        place->chunk1 = chunk->is_bad ? 0 : index + 1;
+    }
+    *out = (cursor){place->bytes.data, place->size, false};
+    return !chunk->is_bad;
 }
 
-const io_mcap_channel *io_mcap_channel_at(const io_mcap_reader *reader, int32_t index)
-{
-    return (const io_mcap_channel *)reader->channels.items + index;
-}
-
-const io_mcap_message *io_mcap_message_at(const io_mcap_reader *reader, int32_t index)
-{
-    return (const io_mcap_message *)reader->messages.items + index;
-}
-
-const char *io_mcap_strangers(const io_mcap_reader *reader)
-{
-    return reader->strangers;
-}
-
-static rlf_result fail_message(const io_mcap_reader *reader, const io_mcap_message *m)
-{
-    return rlf_fail(RLF_ERROR_FORMAT, "%s: a message of %s at %.3f s is damaged: record it again",
-                    reader->file.path, io_mcap_channel_at(reader, m->channel)->topic,
-                    1e-9 * (double)m->time_ns);
-}
+/* ---- messages ------------------------------------------------------------------------------- */
 
 /* `ros2 bag record --compression-mode message` packs each message by itself. */
-static rlf_result unpack_message(io_mcap_reader *reader, const io_mcap_message *m,
-                                 io_cdr_span *inout)
+static bool unpack_message(io_mcap_reader *reader, cursor *inout)
 {
-    const uint64_t size = io_mcap_zstd_size(inout->data, inout->size);
+    const uint64_t size = io_zstd_size(inout->data, inout->left);
     if (size == 0) {
-        return RLF_OK;
+        return true;
     }
-    if (size > IO_MCAP_CHUNK_MAX) {
-        return fail_message(reader, m);
+    if (size > CHUNK_MAX || io_buffer_reserve(&reader->plain, (size_t)size) != RLF_OK ||
+        !io_unpack(IO_PACKING_ZSTD, inout->data, inout->left, reader->plain.data, (size_t)size)) {
+        return false;
     }
-    rlf_result result = io_buffer_reserve(&reader->plain, (size_t)size);
-    if (result == RLF_OK && !io_mcap_decompress(reader->compressor, IO_MCAP_ZSTD, inout->data,
-                                                inout->size, reader->plain.data, (size_t)size)) {
-        return fail_message(reader, m);
-    }
-    *inout = (io_cdr_span){reader->plain.data, (size_t)size};
-    return result;
+    *inout = (cursor){reader->plain.data, (size_t)size, false};
+    return true;
 }
 
-/* Content of a record that is expected to be a message of the channel. */
-static rlf_result take_message(io_mcap_reader *reader, const io_mcap_message *m,
-                               io_mcap_cursor bytes, io_cdr_span *out)
-{
-    io_mcap_cursor record = {0};
-    const uint8_t op = io_mcap_take_record(&bytes, &record);
-    const uint16_t id = (uint16_t)io_mcap_take_number(&record, 2);
-    io_mcap_take(&record, IO_MCAP_MESSAGE_HEAD - 2);
-    if (op != IO_MCAP_MESSAGE || record.is_bad ||
-        id != io_mcap_channel_at(reader, m->channel)->id) {
-        return fail_message(reader, m);
-    }
-    *out = (io_cdr_span){record.data, record.size};
-    return unpack_message(reader, m, out);
-}
-
-static rlf_result read_loose(io_mcap_reader *reader, const io_mcap_message *m, io_cdr_span *out)
+static bool read_loose(io_mcap_reader *reader, uint64_t offset, cursor *out)
 {
     uint64_t size = 0;
-    if (!io_mcap_read_at(reader, m->offset + 1, &size, sizeof(size)) || size > IO_MCAP_CHUNK_MAX ||
-        io_mcap_read_block(reader, m->offset, size + IO_MCAP_RECORD_HEAD, &reader->loose) !=
-            RLF_OK) {
-        return fail_message(reader, m);
+    if (!io_mcap_read_at(reader, offset + 1, &size, sizeof(size))) {
+        return false;
     }
-    const io_mcap_cursor bytes = {reader->loose.data, (size_t)size + IO_MCAP_RECORD_HEAD, false};
-    return take_message(reader, m, bytes, out);
+    io_little(&size, 1, sizeof(size));
+    size += IO_MCAP_RECORD_HEAD;
+    if (size < IO_MCAP_RECORD_HEAD || size > CHUNK_MAX ||
+        io_mcap_read_block(reader, offset, size, &reader->loose) != RLF_OK) {
+        return false;
+    }
+    *out = (cursor){reader->loose.data, (size_t)size, false};
+    return true;
 }
 
-static rlf_result read_message(io_mcap_reader *reader, int32_t index, io_cdr_span *out)
+/* The content of a record that is expected to be a message of the channel. */
+static bool find_message(io_mcap_reader *reader, const io_ros_message *m, cursor *out)
 {
-    const io_mcap_message *m = io_mcap_message_at(reader, index);
-    if (m->chunk < 0) {
-        return read_loose(reader, m, out);
+    cursor bytes;
+    if (m->chunk < 0 ? !read_loose(reader, m->offset, &bytes)
+                     : !io_mcap_load_chunk(reader, m->chunk, &bytes) || m->offset > bytes.left) {
+        return false;
     }
-    const io_mcap_cached *chunk = io_mcap_load_chunk(reader, m->chunk);
-    if (chunk == NULL || m->offset > chunk->size) {
-        return fail_message(reader, m);
-    }
-    const io_mcap_cursor bytes = {chunk->buffer.data + m->offset, chunk->size - (size_t)m->offset,
-                                  false};
-    return take_message(reader, m, bytes, out);
+    cursor_take(&bytes, m->chunk < 0 ? 0 : (size_t)m->offset);
+    const uint8_t op = io_mcap_take_record(&bytes, out);
+    const uint16_t id = cursor_u16(out);
+    cursor_take(out, IO_MCAP_MESSAGE_HEAD - 2);
+    return op == IO_MCAP_MESSAGE && !out->is_short && id == reader->log->channels[m->channel].id &&
+           unpack_message(reader, out);
 }
 
-rlf_result io_mcap_read(io_mcap_reader *reader, int32_t index, io_cdr_reader *out)
+rlf_result io_mcap_message(void *self, const io_ros_message *m, io_cdr_reader *out)
 {
-    io_cdr_span bytes = {NULL, 0};
-    rlf_result result = read_message(reader, index, &bytes);
-    *out = io_cdr_open(bytes.data, bytes.size);
-    return result;
+    io_mcap_reader *reader = self;
+    cursor bytes = {0};
+    const bool is_found = find_message(reader, m, &bytes);
+    *out = io_cdr_open(bytes.data, is_found ? bytes.left : 0);
+    return is_found ? RLF_OK
+                    : rlf_fail(RLF_ERROR_FORMAT,
+                               "%s: a message of %s at %.3f s is damaged: record it again",
+                               reader->file.path, reader->log->channels[m->channel].topic,
+                               1e-9 * (double)m->time_ns);
 }

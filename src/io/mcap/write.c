@@ -1,11 +1,13 @@
 /* Writing MCAP files. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/mcap/write.h"
+#include "io/mcap/mcap.h"
 #include "io/little.h"
 
 #include <errno.h>
+#include <lz4frame.h>
 #include <unistd.h>
 #include <zlib.h>
+#include <zstd.h>
 
 /* Half of the usual time between two chunks, so that each of these reaches the disk. */
 #define SYNC_INTERVAL_NS 500000000
@@ -77,7 +79,6 @@ void io_mcap_free_writer(io_mcap_writer *w)
     if (w->file >= 0) {
         close(w->file);
     }
-    io_mcap_compressor_destroy(&w->compressor);
     io_byte_buffer_free(&w->head);
     io_byte_buffer_free(&w->schemas);
     io_byte_buffer_free(&w->channels);
@@ -98,12 +99,10 @@ static rlf_result open_file(io_mcap_writer *w, const char *path)
                         path);
     }
     memcpy(w->path, path, strlen(path) + 1);
-    rlf_result result = io_out_open_in_place(path, &w->file);
-    return result == RLF_OK ? io_mcap_compressor_create(&w->compressor) : result;
+    return io_out_open_in_place(path, &w->file);
 }
 
-rlf_result io_mcap_writer_create(const char *path, io_mcap_compression compression,
-                                 io_mcap_writer **out)
+rlf_result io_mcap_writer_create(const char *path, io_packing packing, io_mcap_writer **out)
 {
     *out = NULL;
     io_mcap_writer *w = rlf_alloc(sizeof(*w));
@@ -111,7 +110,7 @@ rlf_result io_mcap_writer_create(const char *path, io_mcap_compression compressi
         return RLF_ERROR_MEMORY;
     }
     w->file = -1;
-    w->compression = compression;
+    w->packing = packing;
     rlf_result result = open_file(w, path);
     if (result == RLF_OK) {
         char library[32];
@@ -199,6 +198,44 @@ void io_mcap_add_metadata(io_mcap_writer *w, const char *name, const io_mcap_pai
     w->metadata_count++;
 }
 
+/* ---- compression ---------------------------------------------------------------------------- */
+
+/* JPEG and RVL have little left to squeeze: the fastest level finds it. */
+#define ZSTD_LEVEL 1
+
+const char *io_mcap_packing_name(io_packing packing)
+{
+    return packing == IO_PACKING_ZSTD ? "zstd" : packing == IO_PACKING_LZ4 ? "lz4" : "";
+}
+
+rlf_result io_mcap_compress(io_packing packing, const uint8_t *data, size_t size,
+                            io_byte_buffer *out)
+{
+    if (packing == IO_PACKING_NONE) {
+        io_byte_buffer_add(out, data, size);
+        return io_byte_buffer_check(out);
+    }
+    const bool is_zstd = packing == IO_PACKING_ZSTD;
+    LZ4F_preferences_t preferences = LZ4F_INIT_PREFERENCES;
+    preferences.frameInfo.contentSize = size;
+    const size_t bound =
+        is_zstd ? ZSTD_compressBound(size) : LZ4F_compressFrameBound(size, &preferences);
+    uint8_t *place = io_byte_buffer_reserve(out, bound);
+    if (place == NULL) {
+        return io_byte_buffer_check(out);
+    }
+    const size_t got = is_zstd ? ZSTD_compress(place, bound, data, size, ZSTD_LEVEL)
+                               : LZ4F_compressFrame(place, bound, data, size, &preferences);
+    if (is_zstd ? ZSTD_isError(got) : LZ4F_isError(got)) {
+        return rlf_fail(RLF_ERROR_MEMORY,
+                        "%s refuses to compress %zu bytes: use --compression "
+                        "none",
+                        io_mcap_packing_name(packing), size);
+    }
+    io_byte_buffer_grow(out, got);
+    return RLF_OK;
+}
+
 /* ---- messages and chunks -------------------------------------------------------------------- */
 
 io_byte_buffer *io_mcap_begin(io_mcap_writer *w, uint16_t channel, int64_t time_ns)
@@ -244,11 +281,10 @@ static rlf_result put_chunk(io_mcap_writer *w, chunk_entry *entry)
     io_put_u64(b, (uint64_t)entry->last_ns);
     io_put_u64(b, entry->plain);
     io_put_u32(b, (uint32_t)crc32_z(0, w->chunk.data, w->chunk.size));
-    io_mcap_put_text(b, io_mcap_compression_name(w->compression));
+    io_mcap_put_text(b, io_mcap_packing_name(w->packing));
     io_put_u64(b, 0);
     const size_t begin = b->size;
-    rlf_result result =
-        io_mcap_compress(w->compressor, w->compression, w->chunk.data, w->chunk.size, b);
+    rlf_result result = io_mcap_compress(w->packing, w->chunk.data, w->chunk.size, b);
     entry->compressed = b->size - begin;
     io_mcap_set_u64(b, begin - 8, entry->compressed);
     io_mcap_end_record(b, record);

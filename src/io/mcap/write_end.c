@@ -1,6 +1,6 @@
 /* The end of an MCAP file: the summary, also when the disk is full. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/mcap/write.h"
+#include "io/mcap/mcap.h"
 
 #include <errno.h>
 #include <unistd.h>
@@ -36,7 +36,7 @@ static void put_chunk_index(io_mcap_writer *w, const chunk_entry *entry)
         }
     }
     io_put_u64(b, entry->index_length);
-    io_mcap_put_text(b, io_mcap_compression_name(w->compression));
+    io_mcap_put_text(b, io_mcap_packing_name(w->packing));
     io_put_u64(b, entry->compressed);
     io_put_u64(b, entry->plain);
     io_mcap_end_record(b, record);

@@ -32,19 +32,16 @@ static io_library library = {
     .symbol_count = (int32_t)(sizeof(symbols) / sizeof(symbols[0])),
     .table = &functions};
 
-/* Why the library cannot be used and what to do, or NULL when it can. */
 static const char *unavailable(void)
 {
-    const char *reason;
-    (void)io_library_get(&library, &reason);
-    return reason;
+    return io_library_fault(&library);
 }
 
 rlf_result openni2_begin(const char *who, const openni2_api **out)
 {
-    const char *reason = unavailable();
-    if (reason != NULL) {
-        return rlf_fail(RLF_ERROR_UNSUPPORTED, "%s: %s", who, reason);
+    const char *fault = io_library_fault(&library);
+    if (fault != NULL) {
+        return rlf_fail(RLF_ERROR_UNSUPPORTED, "%s: %s", who, fault);
     }
     pthread_mutex_lock(&lock);
     const int status = functions.initialize(OPENNI2_VERSION);

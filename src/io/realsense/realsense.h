@@ -151,7 +151,6 @@ typedef struct realsense {
     rs2_frame *held; /* the depth picture that was given last; the library's */
     int32_t domain;  /* clock of its time */
     io_live_count count;
-    uint64_t damaged, unpaired;
     int32_t silent_waits;
 } realsense;
 

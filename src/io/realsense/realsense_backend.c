@@ -27,9 +27,7 @@ static io_library library = {
 
 static const char *realsense_unavailable(void)
 {
-    const char *reason;
-    (void)io_library_get(&library, &reason);
-    return reason;
+    return io_library_fault(&library);
 }
 
 static void copy_info(const realsense_api *api, const rs2_device *device, int info, char out[64])
@@ -79,11 +77,7 @@ static int32_t list_devices(const realsense_api *api, const rs2_device_list *lis
 
 static int32_t realsense_list(rlf_source_entry *out, int32_t capacity)
 {
-    const char *reason;
-    const realsense_api *api = io_library_get(&library, &reason);
-    if (api == NULL) {
-        return 0;
-    }
+    const realsense_api *api = &functions;
     rs2_error *error = NULL;
     int32_t count = 0;
     rs2_context *context = make_context(api, &error);
@@ -103,11 +97,7 @@ static int32_t realsense_list(rlf_source_entry *out, int32_t capacity)
 
 static void realsense_status(void *self, rlf_source_status *out)
 {
-    const realsense *r = self;
-    out->lost = r->count.lost;
-    out->doubled = r->count.doubled;
-    out->unpaired = r->unpaired;
-    out->damaged = r->damaged;
+    io_live_count_tell(&((const realsense *)self)->count, out);
 }
 
 static void realsense_destroy(void *self)
@@ -194,16 +184,11 @@ static rlf_result realsense_open(const rlf_address *address, rlf_opened *out)
 {
     static const rlf_source_methods methods = {
         .next = io_realsense_next, .destroy = realsense_destroy, .status = realsense_status};
-    const char *reason;
-    const realsense_api *api = io_library_get(&library, &reason);
-    if (api == NULL) {
-        return rlf_fail(RLF_ERROR_UNSUPPORTED, "%s: %s", address->source, reason);
-    }
     realsense *r = rlf_alloc(sizeof(*r));
     if (r == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    r->api = api;
+    r->api = &functions;
     snprintf(r->source, sizeof(r->source), "%.255s", address->source);
     rlf_result result = start(r, address);
     io_live_opened(&methods, r, r->source, &r->rig, r->frames_per_second, out);

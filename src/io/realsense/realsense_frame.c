@@ -89,7 +89,7 @@ static rlf_result fill_depth(realsense *r, const rs2_frame *depth, rlf_frame *ou
     io_pixels raw;
     if (!get_pixels(r, depth, &r->rig.depth, &raw) ||
         io_pixels_check(&raw, 2, raw.height) != RLF_OK) {
-        r->damaged++;
+        r->count.damaged++;
         return RLF_NO_FRAME;
     }
     rs2_error *error = NULL;
@@ -111,13 +111,13 @@ static void fill_color(realsense *r, const rs2_frame *color, rlf_frame *out)
 {
     io_pixels raw;
     if (color == NULL) {
-        r->unpaired++;
+        r->count.unpaired++;
         return;
     }
     const bool is_whole = get_pixels(r, color, &r->rig.color, &raw);
     raw.encoding = r->color_encoding;
     if (!is_whole || io_pixels_to_rgba(&raw, &r->color) != RLF_OK) {
-        r->damaged++;
+        r->count.damaged++;
         return;
     }
     out->color = r->color;

@@ -1,5 +1,5 @@
 /* Depth and colour as ROS 2 messages. */
-#include "io/ros/frame_write.h"
+#include "io/ros/write.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #ifndef RLF_IO_ROS_MESSAGES_H
 #define RLF_IO_ROS_MESSAGES_H
 
-#include "io/camera_json.h"
+#include "io/calibration/calibration.h"
 #include "io/picture/picture.h"
 #include "relief/frame.h"
 

@@ -40,6 +40,7 @@ void io_ros_recording_free(io_ros_recording *r)
     io_shots_free(&r->depth.shots);
     io_shots_free(&r->color.shots);
     rlf_free(r->decoder.counts);
+    io_ros_log_free(&r->log);
 }
 
 /* ---- opening -------------------------------------------------------------------------------- */
@@ -69,11 +70,10 @@ rlf_result io_ros_prepare(io_ros_recording *r, const rlf_address *address)
 
 static rlf_result list_shots(const io_ros_log *log, io_ros_stream *s)
 {
-    const io_ros_channel channel =
-        s->channel >= 0 ? log->channel(log->self, s->channel) : (io_ros_channel){.count = 0};
+    const int32_t count = s->channel >= 0 ? log->channels[s->channel].count : 0;
     rlf_result result = RLF_OK;
-    for (int32_t i = 0; i < channel.count && result == RLF_OK; i++) {
-        const io_shot shot = {log->time(log->self, channel.first + i), i, 0};
+    for (int32_t i = 0; i < count && result == RLF_OK; i++) {
+        const io_shot shot = {io_ros_log_at(log, s->channel, i)->time_ns, i, 0};
         result = io_shots_add(&s->shots, log->name, shot);
     }
     return result;
@@ -84,8 +84,7 @@ static bool use_stamp(const io_ros_log *log, io_ros_stream *s, int32_t index)
 {
     io_cdr_reader message;
     int64_t stamp_ns = 0;
-    const bool is_good = log->read(log->self, log->channel(log->self, s->channel).first + index,
-                                   &message) == RLF_OK &&
+    const bool is_good = io_ros_log_read(log, s->channel, index, &message) == RLF_OK &&
                          io_ros_read_stamp(message, &stamp_ns) && stamp_ns > 0;
     s->shots.items[index].time_ns = is_good ? stamp_ns : s->shots.items[index].time_ns;
     return is_good;
@@ -113,8 +112,8 @@ static void use_stamps(io_ros_recording *r)
     }
     for (int k = 0; k < 2 && r->log.is_ros1 && !is_good; k++) {
         for (int32_t i = 0; i < at[k]; i++) {
-            const io_ros_channel c = r->log.channel(r->log.self, streams[k]->channel);
-            streams[k]->shots.items[i].time_ns = r->log.time(r->log.self, c.first + i);
+            streams[k]->shots.items[i].time_ns =
+                io_ros_log_at(&r->log, streams[k]->channel, i)->time_ns;
         }
     }
 }

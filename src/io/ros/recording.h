@@ -5,7 +5,7 @@
 #include "io/clip/clip.h"
 #include "io/file.h"
 #include "io/picture/pixels.h"
-#include "io/ros/messages.h"
+#include "io/ros/log.h"
 #include "relief/image.h"
 
 /* ---- Pictures in ROS messages: what they are, and their pixels ---- */
@@ -94,11 +94,8 @@ typedef struct io_ros_topics {
 rlf_result io_ros_choose(const io_ros_topics *topics, const char *depth, const char *color,
                          int32_t *out_depth, int32_t *out_color);
 
-/* Whether messages of a type are pictures or depth in a form that is not read. */
-bool io_ros_is_stranger(const char *type);
-/* Adds "TOPIC (TYPE, ENCODING)" to the texts of strangers, once. `encoding` may be "". */
-void io_ros_add_stranger(char *out, size_t size, const char *topic, const char *type,
-                         const char *encoding);
+/* How many parts of the path two topics begin with alike. */
+int32_t io_ros_common_parts(const char *a, const char *b);
 
 /* Index into infos of the calibration of a topic: the one beside it, else one of its frame_id, else
  * one of its size, which is told. -1 = none that describes pictures of its size. */
@@ -110,28 +107,6 @@ bool io_ros_has_info(const io_ros_topics *topics, const io_ros_topic *picture);
 /* What is known of the calibration beside a topic, for a line that tells why it is not taken. */
 const char *io_ros_tell_info(const io_ros_topics *topics, const io_ros_topic *picture, char *out,
                              size_t size);
-
-/* A topic in the file. Its messages are first .. first + count - 1, in the order of their times. */
-typedef struct io_ros_channel {
-    const char *topic;
-    io_ros_type type;
-    int32_t first, count;
-} io_ros_channel;
-
-/* A file of messages. */
-typedef struct io_ros_log {
-    const char *name; /* for error lines; stays while the log does */
-    bool is_ros1;
-    bool is_live;          /* of a running camera: nothing can be recorded anew */
-    bool has_own_poses;    /* the driver's; tf is not asked */
-    const char *strangers; /* as in io_ros_topics */
-    int32_t channel_count;
-    void *self;
-    io_ros_channel (*channel)(void *self, int32_t index);
-    int64_t (*time)(void *self, int32_t message);
-    /* The message's bytes stay valid until the next call. */
-    rlf_result (*read)(void *self, int32_t message, io_cdr_reader *out);
-} io_ros_log;
 
 /* A topic of pictures, and when they were taken. */
 typedef struct io_ros_stream {
@@ -166,7 +141,7 @@ rlf_result io_ros_list_pictures(io_ros_recording *r, bool has_stamps);
 /* The def has poses, origin, destroy and self; the rest is filled in. */
 rlf_result io_ros_open_clip(io_ros_recording *r, const rlf_address *address, io_clip_def *def,
                             rlf_opened *out);
-/* All but the log. */
+/* With the lists of its log, but not what that reads from. */
 void io_ros_recording_free(io_ros_recording *r);
 
 /* Picture `index` of a topic. */

@@ -48,17 +48,10 @@ static void read_color(io_ros_recording *r)
     }
 }
 
-/* A calibration that the user gave, or that lies beside the file, may be of other pictures. */
 static rlf_result check_size(const io_ros_recording *r, int32_t picture, const rlf_camera *camera)
 {
     const io_ros_topic *t = &r->pictures[picture];
-    return t->width == camera->width && t->height == camera->height
-               ? RLF_OK
-               : rlf_fail(RLF_ERROR_INVALID,
-                          "%s: the calibration is for %d x %d, and the pictures of %s have %d x "
-                          "%d: give one of that size with ?camera=FILE",
-                          r->log.name, (int)camera->width, (int)camera->height, t->name,
-                          (int)t->width, (int)t->height);
+    return io_rig_check_size(r->log.name, t->name, t->width, t->height, camera);
 }
 
 rlf_result io_ros_read_rig(io_ros_recording *r, const rlf_address *address)

@@ -5,8 +5,6 @@
 
 #include <string.h>
 
-/* Of what does not change one message is enough; transforms come spread over a few. */
-#define FEW 256
 /* Error of a stereo match, pixels: what Intel's guide for tuning depth cameras calls good. */
 #define MATCH_ERROR_PX 0.08
 
@@ -14,48 +12,7 @@ typedef struct rosbag {
     io_ros_recording ros; /* the clip's self */
     char path[IO_PATH_MAX];
     bag *bag;
-    char strangers[512];
 } rosbag;
-
-/* ---- the log -------------------------------------------------------------------------------- */
-
-static io_ros_channel channel_at(void *self, int32_t index)
-{
-    const bag_connection *c = bag_connection_at(self, index);
-    return (io_ros_channel){c->topic, io_ros1_type_of(c->type), c->first, c->count};
-}
-
-static int64_t time_of(void *self, int32_t message)
-{
-    return bag_entry_at(self, message)->time_ns;
-}
-
-static rlf_result read_message(void *self, int32_t message, io_cdr_reader *out)
-{
-    io_bytes bytes = {NULL, NULL, 0};
-    rlf_result result = bag_message(self, bag_entry_at(self, message), &bytes);
-    *out = io_ros1_open(bytes.data, bytes.size);
-    return result;
-}
-
-/* Marks what bag_index shall list. */
-static void mark(rosbag *b)
-{
-    for (int32_t i = 0; i < bag_connection_count(b->bag); i++) {
-        bag_connection *c = bag_connection_at(b->bag, i);
-        switch (io_ros1_type_of(c->type)) {
-        case IO_ROS_IMAGE:
-        case IO_ROS_COMPRESSED_IMAGE: c->limit = INT32_MAX; break;
-        case IO_ROS_CAMERA_INFO: c->limit = 1; break;
-        case IO_ROS_OTHER:
-            if (io_ros_is_stranger(c->type)) {
-                io_ros_add_stranger(b->strangers, sizeof(b->strangers), c->topic, c->type, "");
-            }
-            break;
-        default: c->limit = FEW; break;
-        }
-    }
-}
 
 static void rosbag_destroy(void *self)
 {
@@ -67,27 +24,18 @@ static void rosbag_destroy(void *self)
 
 /* ---- RealSense: /device_0/sensor_0/Depth_0/image/data and its neighbours -------------------- */
 
-/* How many parts of the path two topics begin with alike. */
-static int32_t common_parts(const char *a, const char *b)
-{
-    int32_t count = 0;
-    for (; *a != '\0' && *a == *b; a++, b++) {
-        count += a[1] == '/' && b[1] == '/' ? 1 : 0;
-    }
-    return count;
-}
-
 /* The first message of the first topic that begins as `topic` does, by `parts` parts of its path at
  * least, and ends in `suffix`. */
 static bool read_beside(const rosbag *b, const char *topic, int32_t parts, const char *suffix,
                         io_cdr_reader *out)
 {
-    for (int32_t i = 0; i < bag_connection_count(b->bag); i++) {
-        const bag_connection *c = bag_connection_at(b->bag, i);
+    const io_ros_log *log = &b->ros.log;
+    for (int32_t i = 0; i < log->channel_count; i++) {
+        const io_ros_channel *c = &log->channels[i];
         const size_t length = strlen(c->topic);
         if (length >= strlen(suffix) && strcmp(c->topic + length - strlen(suffix), suffix) == 0 &&
-            common_parts(topic, c->topic) >= parts) {
-            return c->count > 0 && read_message(b->bag, c->first, out) == RLF_OK;
+            io_ros_common_parts(topic, c->topic) >= parts) {
+            return c->count > 0 && io_ros_log_read(log, i, 0, out) == RLF_OK;
         }
     }
     return false;
@@ -151,13 +99,13 @@ static void read_realsense(rosbag *b)
 static void describe(const rosbag *b, rlf_opened *out)
 {
     char name[64] = "ROS 1 bag", serial[48] = "";
-    for (int32_t i = 0; i < bag_connection_count(b->bag); i++) {
-        const io_ros_channel c = channel_at(b->bag, i);
-        for (int32_t m = 0;
-             m < c.count && c.type == IO_ROS_KEY_VALUE && strcmp(c.topic, "/device_0/info") == 0;
-             m++) {
+    const io_ros_log *log = &b->ros.log;
+    for (int32_t i = 0; i < log->channel_count; i++) {
+        const io_ros_channel *c = &log->channels[i];
+        const bool is_info = c->type == IO_ROS_KEY_VALUE && strcmp(c->topic, "/device_0/info") == 0;
+        for (int32_t m = 0; m < c->count && is_info; m++) {
             io_cdr_reader message;
-            if (read_message(b->bag, c.first + m, &message) == RLF_OK) {
+            if (io_ros_log_read(log, i, m, &message) == RLF_OK) {
                 io_ros_read_value(message, "Name", name, sizeof(name));
                 io_ros_read_value(message, "Serial Number", serial, sizeof(serial));
             }
@@ -172,18 +120,6 @@ static void describe(const rosbag *b, rlf_opened *out)
 
 static rlf_result open_recording(const rlf_address *address, rosbag *b, rlf_opened *out)
 {
-    b->ros.log = (io_ros_log){.name = b->path,
-                              .is_ros1 = true,
-                              .strangers = b->strangers,
-                              .channel_count = bag_connection_count(b->bag),
-                              .self = b->bag,
-                              .channel = channel_at,
-                              .time = time_of,
-                              .read = read_message};
-    for (int32_t i = 0; i < b->ros.log.channel_count; i++) {
-        b->ros.log.has_own_poses |=
-            strncmp(bag_connection_at(b->bag, i)->topic, "/device_", 8) == 0;
-    }
     io_clip_def def = {.destroy = rosbag_destroy, .self = b};
     rlf_result result = io_ros_prepare(&b->ros, address);
     if (result == RLF_OK && b->ros.log.has_own_poses && !b->ros.has_given_rig) {
@@ -200,11 +136,8 @@ static rlf_result open_recording(const rlf_address *address, rosbag *b, rlf_open
 static rlf_result open_all(const rlf_address *address, rosbag *b, rlf_opened *out)
 {
     snprintf(b->path, sizeof(b->path), "%s", address->place);
-    rlf_result result = bag_open(b->path, &b->bag);
-    if (result == RLF_OK) {
-        mark(b);
-        result = bag_index(b->bag);
-    }
+    b->ros.log.name = b->path;
+    rlf_result result = bag_open(b->path, &b->ros.log, &b->bag);
     return result == RLF_OK ? open_recording(address, b, out) : result;
 }
 

@@ -1,5 +1,5 @@
 /* Point clouds, masks and markers. */
-#include "io/ros/scene_write.h"
+#include "io/ros/write.h"
 
 #include "io/little.h"
 

@@ -14,15 +14,14 @@ static rlf_result fail_picture(const char *topic)
 rlf_result io_ros_read_picture(const io_ros_log *log, const io_ros_stream *stream, int32_t index,
                                io_ros_image *out)
 {
-    const io_ros_channel channel = log->channel(log->self, stream->channel);
     io_cdr_reader message;
-    rlf_result result = log->read(log->self, channel.first + index, &message);
+    rlf_result result = io_ros_log_read(log, stream->channel, index, &message);
     if (result != RLF_OK) {
         return result;
     }
     const bool is_good = stream->is_compressed ? io_ros_read_compressed(message, out)
                                                : io_ros_read_image(message, out);
-    return is_good ? RLF_OK : fail_picture(channel.topic);
+    return is_good ? RLF_OK : fail_picture(log->channels[stream->channel].topic);
 }
 
 static io_ros_picture kind_of(io_ros_pixels pixels)
@@ -37,14 +36,14 @@ static io_ros_picture kind_of(io_ros_pixels pixels)
 
 static void add_pictures(io_ros_recording *r, int32_t index)
 {
-    const io_ros_channel channel = r->log.channel(r->log.self, index);
+    const io_ros_channel *channel = &r->log.channels[index];
     io_ros_stream *s = &r->streams[r->lists.picture_count];
     io_ros_topic *topic = &r->pictures[r->lists.picture_count++];
-    *s =
-        (io_ros_stream){.channel = index, .is_compressed = channel.type == IO_ROS_COMPRESSED_IMAGE};
+    *s = (io_ros_stream){.channel = index,
+                         .is_compressed = channel->type == IO_ROS_COMPRESSED_IMAGE};
     *topic =
-        (io_ros_topic){.name = channel.topic, .count = channel.count, .encoding = "no pictures"};
-    for (int32_t i = 0; i < channel.count; i++) {
+        (io_ros_topic){.name = channel->topic, .count = channel->count, .encoding = "no pictures"};
+    for (int32_t i = 0; i < channel->count; i++) {
         io_ros_image image;
         if (io_ros_read_picture(&r->log, s, i, &image) == RLF_OK) {
             s->pixels = io_ros_pixels_of(&image, s->is_compressed);
@@ -60,12 +59,11 @@ static void add_pictures(io_ros_recording *r, int32_t index)
 
 static void add_info(io_ros_recording *r, int32_t index)
 {
-    const io_ros_channel channel = r->log.channel(r->log.self, index);
     io_ros_info_topic *topic = &r->infos[r->lists.info_count];
-    topic->name = channel.topic;
-    for (int32_t m = 0; m < channel.count; m++) {
+    topic->name = r->log.channels[index].topic;
+    for (int32_t m = 0; m < r->log.channels[index].count; m++) {
         io_cdr_reader message;
-        if (r->log.read(r->log.self, channel.first + m, &message) == RLF_OK &&
+        if (io_ros_log_read(&r->log, index, m, &message) == RLF_OK &&
             io_ros_read_camera_info(message, &topic->info)) {
             r->lists.info_count++;
             return;
@@ -98,7 +96,7 @@ rlf_result io_ros_list_topics(io_ros_recording *r)
                                .is_joined = is_joined,
                                .self = r};
     for (int32_t i = 0; i < r->log.channel_count; i++) {
-        const io_ros_type type = r->log.channel(r->log.self, i).type;
+        const io_ros_type type = r->log.channels[i].type;
         if (type == IO_ROS_IMAGE || type == IO_ROS_COMPRESSED_IMAGE) {
             add_pictures(r, i);
         } else if (type == IO_ROS_CAMERA_INFO) {

@@ -44,13 +44,13 @@ static void add(io_ros_transforms *t, const io_ros_transform *item)
     t->count += above(t, to->child) == NULL ? 1 : 0;
 }
 
-static void read_channel(const io_ros_log *log, const io_ros_channel *channel, io_ros_transforms *t,
+static void read_channel(const io_ros_log *log, int32_t channel, io_ros_transforms *t,
                          io_ros_transform *room)
 {
-    for (int32_t m = 0; m < channel->count; m++) {
+    for (int32_t m = 0; m < log->channels[channel].count; m++) {
         io_cdr_reader message;
         uint32_t count = 0;
-        if (log->read(log->self, channel->first + m, &message) == RLF_OK) {
+        if (io_ros_log_read(log, channel, m, &message) == RLF_OK) {
             io_ros_read_tf(message, room, AT_ONCE, &count);
         }
         for (uint32_t i = 0; i < count; i++) {
@@ -67,10 +67,10 @@ rlf_result io_ros_transforms_read(const io_ros_log *log, io_ros_transforms **out
     if (t != NULL && room != NULL) {
         t->is_ros1 = log->is_ros1;
         for (int32_t i = 0; i < log->channel_count; i++) {
-            const io_ros_channel channel = log->channel(log->self, i);
-            if (channel.type == IO_ROS_TF &&
-                (log->is_ros1 || strstr(channel.topic, "tf_static") != NULL)) {
-                read_channel(log, &channel, t, room);
+            const io_ros_channel *channel = &log->channels[i];
+            if (channel->type == IO_ROS_TF &&
+                (log->is_ros1 || strstr(channel->topic, "tf_static") != NULL)) {
+                read_channel(log, i, t, room);
             }
         }
     }

@@ -1,5 +1,5 @@
 /* Which of the topics that are published are read, to find out what a camera is. */
-#include "io/ros2/gather.h"
+#include "io/ros2/find_camera.h"
 
 #include <string.h>
 

@@ -1,10 +1,9 @@
 /* What a run makes, for ROS 2. The frame loop copies what somebody reads, and waits for nobody; a
  * thread writes it. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/ros2/camera_out.h"
-#include "io/ros2/gather.h"
-#include "io/ros2/moment.h"
-#include "io/ros/scene_write.h"
+#include "io/ros2/find_camera.h"
+#include "io/ros2/publish.h"
+#include "io/ros/write.h"
 #include "relief/io.h"
 
 #include <pthread.h>
@@ -35,7 +34,7 @@ struct rlf_ros2_publisher {
     bool is_running;
     pthread_mutex_t lock; /* of what follows */
     pthread_cond_t news;
-    io_ros2_moment slots[SLOTS];
+    io_ros2_run_frame slots[SLOTS];
     int32_t waiting, sending; /* slots; -1 = none */
     bool is_ending;
     rlf_ros2_status status;
@@ -60,7 +59,7 @@ static void send(rlf_ros2_publisher *p, const io_ros2_writer *writer)
     p->buffer.is_short = false;
 }
 
-static void send_picture(rlf_ros2_publisher *p, const io_ros2_moment *m,
+static void send_picture(rlf_ros2_publisher *p, const io_ros2_run_frame *m,
                          const io_ros_header *header)
 {
     if (io_ros2_writer_is_read(&p->out.picture)) {
@@ -76,7 +75,8 @@ static void send_picture(rlf_ros2_publisher *p, const io_ros2_moment *m,
     }
 }
 
-static void send_cloud(rlf_ros2_publisher *p, const io_ros2_moment *m, const io_ros_header *header)
+static void send_cloud(rlf_ros2_publisher *p, const io_ros2_run_frame *m,
+                       const io_ros_header *header)
 {
     const size_t count = (size_t)m->width * (size_t)m->height;
     const io_ros_cloud cloud = {.width = m->width,
@@ -93,7 +93,7 @@ static void send_cloud(rlf_ros2_publisher *p, const io_ros2_moment *m, const io_
 }
 
 /* Where the camera is: of its root, which is the colour camera where there is one. */
-static void send_pose(rlf_ros2_publisher *p, const io_ros2_moment *m, int64_t stamp_ns)
+static void send_pose(rlf_ros2_publisher *p, const io_ros2_run_frame *m, int64_t stamp_ns)
 {
     io_ros_transform t = {.stamp_ns = stamp_ns, .T_parent_child = m->T_world_camera};
     memcpy(t.parent, p->world_frame, sizeof(t.parent));
@@ -108,7 +108,7 @@ static void send_pose(rlf_ros2_publisher *p, const io_ros2_moment *m, int64_t st
     send(p, &p->out.tf);
 }
 
-static void send_moment(rlf_ros2_publisher *p, const io_ros2_moment *m)
+static void send_run_frame(rlf_ros2_publisher *p, const io_ros2_run_frame *m)
 {
     const int64_t offset_ns = io_ros2_clock_offset(&p->clock, m->time_ns, m->host_ns);
     const int64_t stamp_ns = m->time_ns + offset_ns;
@@ -145,22 +145,23 @@ static void send_moment(rlf_ros2_publisher *p, const io_ros2_moment *m)
 
 /* ---- the thread ----------------------------------------------------------------------------- */
 
-static uint32_t look_for_readers(rlf_ros2_publisher *p)
+static uint32_t look_for_readers(const rlf_ros2_publisher *p)
 {
     const outputs *o = &p->out;
     const io_ros2_camera *c = &p->camera;
-    const io_ros2_writer *const of_frame[6] = {&c->depth, &c->depth_packed, &c->depth_info,
-                                               &c->color, &c->color_packed, &c->color_info};
+    const struct {
+        const io_ros2_writer *writer;
+        io_ros2_part part;
+    } rows[] = {{&c->depth, IO_ROS2_FRAME},        {&c->depth_packed, IO_ROS2_FRAME},
+                {&c->depth_info, IO_ROS2_FRAME},   {&c->color, IO_ROS2_FRAME},
+                {&c->color_packed, IO_ROS2_FRAME}, {&c->color_info, IO_ROS2_FRAME},
+                {&o->picture, IO_ROS2_PICTURE},    {&o->packed, IO_ROS2_PICTURE},
+                {&o->cloud, IO_ROS2_CLOUD},        {&o->mask, IO_ROS2_MASK},
+                {&o->bodies, IO_ROS2_BODIES},      {&o->contacts, IO_ROS2_CONTACTS}};
     uint32_t wanted = 0;
-    for (int i = 0; i < 6; i++) {
-        wanted |= io_ros2_writer_is_read(of_frame[i]) ? IO_ROS2_FRAME : 0u;
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        wanted |= io_ros2_writer_is_read(rows[i].writer) ? (uint32_t)rows[i].part : 0u;
     }
-    wanted |= io_ros2_writer_is_read(&o->picture) ? IO_ROS2_PICTURE : 0u;
-    wanted |= io_ros2_writer_is_read(&o->packed) ? IO_ROS2_PICTURE : 0u;
-    wanted |= io_ros2_writer_is_read(&o->cloud) ? IO_ROS2_CLOUD : 0u;
-    wanted |= io_ros2_writer_is_read(&o->mask) ? IO_ROS2_MASK : 0u;
-    wanted |= io_ros2_writer_is_read(&o->bodies) ? IO_ROS2_BODIES : 0u;
-    wanted |= io_ros2_writer_is_read(&o->contacts) ? IO_ROS2_CONTACTS : 0u;
     return wanted;
 }
 
@@ -188,7 +189,7 @@ static void *run(void *self)
         is_ending = p->is_ending && sending < 0;
         pthread_mutex_unlock(&p->lock);
         if (sending >= 0) {
-            send_moment(p, &p->slots[sending]);
+            send_run_frame(p, &p->slots[sending]);
             pthread_mutex_lock(&p->lock);
             p->sending = -1;
             p->status.frames++;
@@ -211,9 +212,9 @@ void rlf_ros2_publisher_add(rlf_ros2_publisher *p, const rlf_pipeline_output *fr
         slot++;
     }
     pthread_mutex_unlock(&p->lock);
-    io_ros2_moment *m = &p->slots[slot]; /* nobody else has it */
+    io_ros2_run_frame *m = &p->slots[slot]; /* nobody else has it */
     m->host_ns = io_ros2_now();
-    io_ros2_moment_fill(m, &p->rig, atomic_load(&p->wanted), frame);
+    io_ros2_run_frame_fill(m, &p->rig, atomic_load(&p->wanted), frame);
     pthread_mutex_lock(&p->lock);
     p->status.dropped += p->waiting >= 0 ? 1 : 0;
     p->waiting = slot;
@@ -237,22 +238,14 @@ rlf_ros2_status rlf_ros2_publisher_get_status(rlf_ros2_publisher *p)
 static rlf_result open_outputs(rlf_ros2_publisher *p, const char *name)
 {
     const char *image = io_ros_type_name(IO_ROS_IMAGE);
-    const struct {
-        const char *part, *type;
-        io_ros2_writer *out;
-    } rows[] = {{"image_raw", image, &p->out.picture},
-                {"image_raw/compressed", io_ros_type_name(IO_ROS_COMPRESSED_IMAGE), &p->out.packed},
-                {"points", IO_ROS_CLOUD_TYPE, &p->out.cloud},
-                {"foreground", image, &p->out.mask},
-                {"bodies", IO_ROS_MARKERS_TYPE, &p->out.bodies},
-                {"contacts", IO_ROS_MARKERS_TYPE, &p->out.contacts}};
-    rlf_result result = RLF_OK;
-    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]) && result == RLF_OK; i++) {
-        char topic[IO_ROS2_TOPIC_MAX];
-        result = io_ros2_name(name, rows[i].part, topic)
-                     ? io_ros2_writer_open(p->node, topic, rows[i].type, false, rows[i].out)
-                     : rlf_fail(RLF_ERROR_INVALID, "ros2:%.60s: the name is too long", name);
-    }
+    const char *packed = io_ros_type_name(IO_ROS_COMPRESSED_IMAGE);
+    const io_ros2_output rows[] = {{"image_raw", image, &p->out.picture},
+                                   {"image_raw/compressed", packed, &p->out.packed},
+                                   {"points", IO_ROS_CLOUD_TYPE, &p->out.cloud},
+                                   {"foreground", image, &p->out.mask},
+                                   {"bodies", IO_ROS_MARKERS_TYPE, &p->out.bodies},
+                                   {"contacts", IO_ROS_MARKERS_TYPE, &p->out.contacts}};
+    rlf_result result = io_ros2_open_outputs(p->node, name, rows, sizeof(rows) / sizeof(rows[0]));
     return result == RLF_OK
                ? io_ros2_writer_open(p->node, "/tf", io_ros_type_name(IO_ROS_TF), false, &p->out.tf)
                : result;
@@ -270,7 +263,7 @@ static rlf_result open_all(rlf_ros2_publisher *p, const char *address)
     result = result == RLF_OK ? open_outputs(p, target.name) : result;
     io_ros2_frame_name(target.name, WORLD_FRAME, p->world_frame);
     for (int32_t i = 0; i < SLOTS && result == RLF_OK; i++) {
-        result = io_ros2_moment_create(&p->rig, &p->slots[i]);
+        result = io_ros2_run_frame_create(&p->rig, &p->slots[i]);
     }
     return result;
 }
@@ -340,7 +333,7 @@ void rlf_ros2_publisher_close(rlf_ros2_publisher **publisher)
     io_ros2_camera_close(&p->camera);
     io_byte_buffer_free(&p->buffer);
     for (int32_t i = 0; i < SLOTS; i++) {
-        io_ros2_moment_destroy(&p->slots[i]);
+        io_ros2_run_frame_destroy(&p->slots[i]);
     }
     pthread_cond_destroy(&p->news);
     pthread_mutex_destroy(&p->lock);

@@ -1,7 +1,7 @@
 /* Any camera with a ROS 2 driver as a source. */
-#include "io/ros2/stream.h"
+#include "io/ros2/find_camera.h"
 
-#include "io/clip/clip.h"
+#include "io/live/driver.h"
 #include "io/source/backends.h"
 
 #include <math.h>
@@ -11,13 +11,102 @@
 #define NS_PER_S 1000000000.0
 #define RATE_MAX 240.0
 
+/* ---- messages of one topic, of one publisher ------------------------------------------------- */
+
+/* Depth or colour of a running camera: message by message into a picture. */
+typedef struct stream {
+    const char *source, *topic; /* for lines */
+    io_ros2_reader reader;
+    bool is_compressed, is_told;
+    bool has_rival; /* another publisher's message came since the last of its own */
+    io_ros_pixels pixels;
+    uint64_t writer; /* whose messages are taken; 0 = the first that comes */
+    int64_t heard_ns;
+    uint64_t *damaged; /* counts what is refused */
+} stream;
+
+/* A publisher that was silent so long may be dead: the next one's messages are taken. Cameras make
+ * five pictures a second or more. */
+#define SILENT_NS INT64_C(300000000)
+
+/* Once. */
+static void tell(stream *s, const char *line)
+{
+    if (!s->is_told) {
+        s->is_told = true;
+        rlf_log(RLF_LOG_WARNING, "%s: a message of %s is refused: %s", s->source, s->topic, line);
+    }
+}
+
+/* Counts a picture that could not be decoded, with the error line that is left. */
+static void refuse(stream *s, const char *line)
+{
+    ++*s->damaged;
+    tell(s, line);
+}
+
+/* Two on one topic would give two rooms in turn. Of one that was killed and started again the first
+ * is silent: nothing is told of it. */
+static bool is_of_publisher(stream *s, const io_ros2_message *m)
+{
+    const int64_t now_ns = rlf_clock_ns();
+    const bool is_other = s->writer != 0 && m->writer != s->writer;
+    if (is_other && now_ns - s->heard_ns < SILENT_NS) {
+        s->has_rival = true;
+        ++*s->damaged;
+        return false;
+    }
+    if (s->has_rival && !is_other) {
+        tell(s, "a second publisher sends to this topic, too: stop one");
+    }
+    s->has_rival = false;
+    s->writer = m->writer;
+    s->heard_ns = now_ns;
+    return true;
+}
+
+static bool read_image(stream *s, const io_ros2_message *m, io_ros_image *out)
+{
+    const io_cdr_reader reader = io_cdr_open(m->data, m->size);
+    const bool is_read =
+        s->is_compressed ? io_ros_read_compressed(reader, out) : io_ros_read_image(reader, out);
+    if (!is_read) {
+        refuse(s, "it is cut short, or no picture");
+        return false;
+    }
+    if (io_ros_pixels_of(out, s->is_compressed) != s->pixels) {
+        char line[128];
+        snprintf(line, sizeof(line), "its encoding is now \"%.40s\": start again", out->encoding);
+        refuse(s, line);
+        return false;
+    }
+    return true;
+}
+
+/* The next message that is to be used; false when nothing waits. Messages of a second publisher, of
+ * another kind of picture, and bytes that are none are refused and counted. `held` is released by
+ * the caller. */
+static bool take_message(stream *s, io_ros2_message *held, io_ros_image *out)
+{
+    while (io_ros2_take(&s->reader, held)) {
+        if (is_of_publisher(s, held) && read_image(s, held, out)) {
+            out->header.stamp_ns = out->header.stamp_ns > 0 ? out->header.stamp_ns : held->sent_ns;
+            return true;
+        }
+        io_ros2_release(held);
+    }
+    return false;
+}
+
+/* ---- a camera -------------------------------------------------------------------------------- */
+
 typedef struct ros2 {
     char source[256];
     io_ros2_node *node;
-    io_ros2_gathered gathered;
+    io_ros2_found found;
     io_ros_recording ros; /* of the first messages: what the topics are, cameras, decoder */
     io_stream_pair pair;
-    io_ros2_stream depth, color;
+    stream depth, color;
     double frames_per_second;
 } ros2;
 
@@ -27,14 +116,14 @@ static bool take_color(ros2 *r)
 {
     io_ros2_message held = {0};
     io_ros_image image;
-    if (!r->ros.rig.has_color || !io_ros2_stream_take(&r->color, &held, &image)) {
+    if (!r->ros.rig.has_color || !take_message(&r->color, &held, &image)) {
         return false;
     }
     const rlf_image_rgba8 to = io_stream_pair_color(&r->pair);
     if (io_ros_decode_color(&r->ros.decoder, &image, r->color.pixels, &to) == RLF_OK) {
         io_stream_pair_push_color(&r->pair, image.header.stamp_ns);
     } else {
-        io_ros2_stream_refuse(&r->color, rlf_error_text());
+        refuse(&r->color, rlf_error_text());
     }
     io_ros2_release(&held);
     return true;
@@ -44,7 +133,7 @@ static bool take_depth(ros2 *r)
 {
     io_ros2_message held = {0};
     io_ros_image image;
-    if (!io_ros2_stream_take(&r->depth, &held, &image)) {
+    if (!take_message(&r->depth, &held, &image)) {
         return false;
     }
     const rlf_camera *c = &r->ros.rig.depth;
@@ -52,7 +141,7 @@ static bool take_depth(ros2 *r)
                             io_stream_pair_depth(&r->pair)) == RLF_OK) {
         io_stream_pair_push_depth(&r->pair, image.header.stamp_ns, -1);
     } else {
-        io_ros2_stream_refuse(&r->depth, rlf_error_text());
+        refuse(&r->depth, rlf_error_text());
     }
     io_ros2_release(&held);
     return true;
@@ -89,7 +178,7 @@ static void ros2_destroy(void *self)
     ros2 *r = self;
     io_stream_pair_finish(&r->pair);
     io_ros_recording_free(&r->ros);
-    io_ros2_gathered_free(&r->gathered);
+    io_ros2_found_free(&r->found);
     io_ros2_node_close(&r->node);
     rlf_free(r);
 }
@@ -120,21 +209,21 @@ static rlf_result check_clock(const ros2 *r, const rlf_address *address,
 static void use_streams(ros2 *r)
 {
     const io_ros_stream *const from[2] = {&r->ros.depth, &r->ros.color};
-    io_ros2_stream *const to[2] = {&r->depth, &r->color};
+    stream *const to[2] = {&r->depth, &r->color};
     for (int k = 0; k < 2; k++) {
         if (from[k]->channel >= 0) {
-            const io_ros2_channel *c = &r->gathered.channels[from[k]->channel];
-            *to[k] = (io_ros2_stream){.source = r->source,
-                                      .topic = c->topic.name,
-                                      .reader = c->reader,
-                                      .is_compressed = from[k]->is_compressed,
-                                      .pixels = from[k]->pixels,
-                                      .damaged = &r->pair.status.damaged};
+            const io_ros2_channel *c = &r->found.channels[from[k]->channel];
+            *to[k] = (stream){.source = r->source,
+                              .topic = c->topic.name,
+                              .reader = c->reader,
+                              .is_compressed = from[k]->is_compressed,
+                              .pixels = from[k]->pixels,
+                              .damaged = &r->pair.status.damaged};
         }
     }
-    for (int32_t i = 0; i < r->gathered.count; i++) {
+    for (int32_t i = 0; i < r->found.count; i++) {
         if (i != r->ros.depth.channel && i != r->ros.color.channel) {
-            io_ros2_reader_close(&r->gathered.channels[i].reader);
+            io_ros2_reader_close(&r->found.channels[i].reader);
         }
     }
 }
@@ -155,16 +244,13 @@ static rlf_result start(ros2 *r, const rlf_address *address)
                                .depth = rlf_address_get(address, "depth"),
                                .color = rlf_address_get(address, "color"),
                                .is_packed = place.profile == IO_ROS2_LAN};
-    result = result == RLF_OK ? io_ros2_gather(r->node, r->source, &wish, &r->gathered) : result;
+    result = result == RLF_OK ? io_ros2_find_camera(r->node, r->source, &wish, &r->found) : result;
+    result = result == RLF_OK ? io_ros2_found_log(&r->found, r->source, &r->ros.log) : result;
+    result = result == RLF_OK ? io_ros_prepare(&r->ros, address) : result;
     if (result != RLF_OK) {
         return result;
     }
-    r->ros.log = io_ros2_gathered_log(&r->gathered, r->source);
-    result = io_ros_prepare(&r->ros, address);
-    if (result != RLF_OK) {
-        return result;
-    }
-    const io_ros2_channel *depth = &r->gathered.channels[r->ros.depth.channel];
+    const io_ros2_channel *depth = &r->found.channels[r->ros.depth.channel];
     read_rate(r, depth);
     result = check_clock(r, address, depth);
     r->ros.decoder.rounds_metres = true; /* pairs are of counts */

@@ -83,9 +83,8 @@ static rlf_result read_body(const io_json_object *body, const io_scene_reader *r
     return result;
 }
 
-/* Logs tell bodies apart by their names. */
-static rlf_result note_name(const io_json_object *body, const io_scene_reader *reader,
-                            const char *name)
+rlf_result io_scene_note_name(const io_json_object *body, const io_scene_reader *reader,
+                              const char *name)
 {
     if (name[0] == '\0') {
         return RLF_OK;
@@ -103,7 +102,7 @@ rlf_result io_scene_note_body(const io_json_object *body, const io_scene_reader 
 {
     const rlf_body_def *def = &reader->scene->bodies[reader->scene->body_count - 1];
     bool is_noted = json_array_append(reader->bodies, body->value) == 0;
-    return is_noted ? note_name(body, reader, def->name) : RLF_ERROR_MEMORY;
+    return is_noted ? io_scene_note_name(body, reader, def->name) : RLF_ERROR_MEMORY;
 }
 
 rlf_result io_scene_reserve(io_scene_reader *reader, int32_t count)

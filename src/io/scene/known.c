@@ -1,8 +1,6 @@
 /* scene.json's known objects: models of real things, placed by a pose or by points. */
 #include "io/scene/reader.h"
 
-#include <string.h>
-
 #define POSITION_MAX_M 1e6
 
 static rlf_result read_model_point(const io_json_object *point, const rlf_shape *shape,
@@ -126,24 +124,9 @@ static rlf_result read_known(const io_json_object *object, const io_scene_reader
     return result == RLF_OK ? read_place(object, def) : result;
 }
 
-/* Logs tell bodies and models apart by their names. */
-static rlf_result check_name_is_new(const io_json_object *object, const rlf_scene *scene,
-                                    const char *name)
+rlf_result io_known_read(const io_json_object *top, const io_scene_reader *reader)
 {
-    bool is_taken = false;
-    for (int32_t i = 0; i < scene->body_count; i++) {
-        is_taken = is_taken || strcmp(scene->bodies[i].name, name) == 0;
-    }
-    for (int32_t i = 0; i < scene->known_count; i++) {
-        is_taken = is_taken || strcmp(scene->known[i].name, name) == 0;
-    }
-    return is_taken ? io_json_fail(object, "name", "is \"%s\" like that of another: choose another",
-                                   name)
-                    : RLF_OK;
-}
-
-rlf_result io_known_read(const io_json_object *top, const char *folder, rlf_scene *scene)
-{
+    rlf_scene *scene = reader->scene;
     const json_t *list = json_object_get(top->value, "known_objects");
     if (list == NULL) {
         return RLF_OK;
@@ -165,9 +148,8 @@ rlf_result io_known_read(const io_json_object *top, const char *folder, rlf_scen
         }
         rlf_known_def *def = &scene->known[i];
         *def = rlf_known_def_default();
-        const io_scene_reader reader = {.folder = folder, .scene = scene};
-        rlf_result result = read_known(&object, &reader, def);
-        result = result == RLF_OK ? check_name_is_new(&object, scene, def->name) : result;
+        rlf_result result = read_known(&object, reader, def);
+        result = result == RLF_OK ? io_scene_note_name(&object, reader, def->name) : result;
         scene->known_count++; /* also when it failed: its hull must be freed */
         if (result != RLF_OK) {
             return result;

@@ -84,23 +84,6 @@ static rlf_result set_poses(json_t *document, const rlf_known_def *known, int32_
     return RLF_OK;
 }
 
-static rlf_result write_document(const json_t *document, const char *path)
-{
-    char *text = json_dumps(document, JSON_INDENT(2) | JSON_REAL_PRECISION(9));
-    if (text == NULL) {
-        return RLF_ERROR_MEMORY;
-    }
-    io_out_file file;
-    rlf_result result = io_out_open(&file, path);
-    if (result == RLF_OK) {
-        result = io_out_write(&file, text, strlen(text));
-        result = result == RLF_OK ? io_out_write(&file, "\n", 1) : result;
-        result = io_out_close(&file, result);
-    }
-    free(text);
-    return result;
-}
-
 rlf_result rlf_scene_save_known(const char *scene_path, const rlf_known_def *known, int32_t count,
                                 const char *out_path)
 {
@@ -123,7 +106,9 @@ rlf_result rlf_scene_save_known(const char *scene_path, const rlf_known_def *kno
     if (result == RLF_OK) {
         result = move_models(json_object_get(document, "known_objects"), scene_path, out_path);
     }
-    result = result == RLF_OK ? write_document(document, out_path) : result;
+    if (result == RLF_OK) {
+        result = io_json_write(out_path, json_incref(document), 9);
+    }
     json_decref(document);
     io_buffer_free(&buffer);
     return result;

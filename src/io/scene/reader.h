@@ -22,7 +22,7 @@ rlf_result io_scene_read_name(const io_json_object *object, char out[RLF_NAME_MA
 typedef struct io_scene_reader {
     const char *folder; /* where names of files start */
     json_t *bodies;     /* what each of scene->bodies was read from; NULL = none */
-    json_t *names;      /* of bodies, each with the path of the one that has it */
+    json_t *names;      /* each with the path of the body or known object that has it */
     rlf_scene *scene;
     int32_t capacity; /* of scene->bodies */
 } io_scene_reader;
@@ -33,6 +33,9 @@ rlf_result io_scene_reserve(io_scene_reader *reader, int32_t count);
 rlf_result io_scene_read_body(const io_json_object *body, const io_scene_reader *reader);
 /* The scene's last body comes from `body`: an error when its name is taken. */
 rlf_result io_scene_note_body(const io_json_object *body, const io_scene_reader *reader);
+/* Logs tell bodies and models apart by their names: an error when it is taken. "" is no name. */
+rlf_result io_scene_note_name(const io_json_object *body, const io_scene_reader *reader,
+                              const char *name);
 /* The list "bodies". */
 rlf_result io_scene_read_bodies(const io_json_object *top, io_scene_reader *reader);
 /* spawn.c: the list "spawn". */
@@ -49,10 +52,6 @@ rlf_result io_scene_read_look(const io_json_object *object, const io_scene_reade
                               const rlf_shape *shape, rlf_look *out);
 
 /* known.c: the list "known_objects". What is read is the scene's also on failure. */
-rlf_result io_known_read(const io_json_object *top, const char *folder, rlf_scene *scene);
-
-/* ---- Where the bodies of a spawn pattern are ---- */
-
-/* Random numbers from a seed, the same on every machine: SplitMix64 (Steele, Lea, Flood 2014). */
+rlf_result io_known_read(const io_json_object *top, const io_scene_reader *reader);
 
 #endif

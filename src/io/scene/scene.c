@@ -79,7 +79,8 @@ static rlf_result read_gravity(const io_json_object *top, rlf_scene *scene)
     return scene->finds_gravity ? RLF_OK : io_json_get_vec3(top, &field, &scene->gravity);
 }
 
-static rlf_result read_all_bodies(const io_json_object *top, const char *folder, rlf_scene *scene)
+/* Bodies, patterns of them, known objects. */
+static rlf_result read_objects(const io_json_object *top, const char *folder, rlf_scene *scene)
 {
     io_scene_reader reader = {
         .folder = folder, .bodies = json_array(), .names = json_object(), .scene = scene};
@@ -88,6 +89,7 @@ static rlf_result read_all_bodies(const io_json_object *top, const char *folder,
         result = io_scene_read_bodies(top, &reader);
     }
     result = result == RLF_OK ? io_spawn_read(top, &reader) : result;
+    result = result == RLF_OK ? io_known_read(top, &reader) : result;
     json_decref(reader.bodies);
     json_decref(reader.names);
     return result;
@@ -117,9 +119,8 @@ static rlf_result read_scene(const io_json_object *top, const char *folder, rlf_
     rlf_result result = check_words(top);
     result = result == RLF_OK ? read_gravity(top, scene) : result;
     result = result == RLF_OK ? read_border(top, &scene->border) : result;
-    result = result == RLF_OK ? read_all_bodies(top, folder, scene) : result;
-    result = result == RLF_OK ? read_on(top, scene) : result;
-    return result == RLF_OK ? io_known_read(top, folder, scene) : result;
+    result = result == RLF_OK ? read_objects(top, folder, scene) : result;
+    return result == RLF_OK ? read_on(top, scene) : result;
 }
 
 rlf_result io_scene_parse(const io_bytes *file, const char *folder, rlf_scene *out)

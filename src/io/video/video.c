@@ -1,11 +1,36 @@
 /* Videos by their name: a file, standard output or a virtual camera. */
 #define _POSIX_C_SOURCE 200809L
 #include "relief/io.h"
+#include "base/messages.h"
 #include "io/video/video.h"
 
 #include <errno.h>
 #include <string.h>
 #include <time.h>
+
+#ifndef RLF_HAVE_LIBAV
+rlf_result io_mp4_open(const char *path, const io_video_format *format, io_video_sink *out)
+{
+    (void)format, (void)out;
+    return rlf_fail(
+        RLF_ERROR_UNSUPPORTED,
+        "%s: this build cannot write MP4: use a name that ends in .y4m, or " RLF_GET_PART(
+            "libavcodec-dev libavformat-dev libavutil-dev", "script/bootstrap",
+            "RELIEF_WITH_VIDEO"),
+        path);
+}
+#endif
+#ifndef RLF_HAVE_PIPEWIRE
+rlf_result io_pipewire_open(const char *name, const io_video_format *format, io_video_sink *out)
+{
+    (void)format, (void)out;
+    return rlf_fail(
+        RLF_ERROR_UNSUPPORTED,
+        "pipewire:%s: this build has no PipeWire: give /dev/videoN of v4l2loopback, "
+        "or " RLF_GET_PART("libpipewire-0.3-dev", "script/bootstrap --all", "RELIEF_WITH_PIPEWIRE"),
+        name);
+}
+#endif
 
 /* ---- Y4M: uncompressed video that every tool reads --------------------------------------- */
 

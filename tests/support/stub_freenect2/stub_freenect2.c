@@ -105,6 +105,17 @@ int relief_freenect2_wait(relief_freenect2 *self, int timeout_ms, relief_freenec
     return 1;
 }
 
+/* No lens and no shadow: a depth pixel's colour lies three times as far and twice as low. */
+void relief_freenect2_registration(relief_freenect2 *self, float *out_depth, uint32_t *out_color)
+{
+    for (int i = 0; i < KINECT2_DEPTH_PIXELS; i++) {
+        const int x = STUB_K2_ALIGNED_X + 3 * (i % KINECT2_DEPTH_WIDTH);
+        const int y = STUB_K2_ALIGNED_Y + 2 * (i / KINECT2_DEPTH_WIDTH);
+        out_depth[i] = self->depth[i] > 0.0F ? self->depth[i] : 0.0F;
+        memcpy(&out_color[i], self->color + (ptrdiff_t)(y * KINECT2_COLOR_WIDTH + x) * 4, 4);
+    }
+}
+
 void relief_freenect2_close(relief_freenect2 *self)
 {
     stub.fault.objects--;

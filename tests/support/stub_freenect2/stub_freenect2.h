@@ -17,4 +17,8 @@ stub_freenect2 *stub_freenect2_get(void);
 #define STUB_K2_TICKS 267
 #define STUB_K2_COLOR_LATE_TICKS 20
 
+/* Colour pixel of the first depth pixel. */
+#define STUB_K2_ALIGNED_X 150
+#define STUB_K2_ALIGNED_Y 100
+
 #endif

@@ -1,7 +1,8 @@
 /* camera.json: the intrinsics of the depth and colour cameras and the transform between them. */
-#include "io/camera_json.h"
+#include "io/calibration/calibration.h"
 #include "io/json.h"
 
+#include <math.h>
 #include <string.h>
 
 #define SIZE_MEANING "the picture's size in pixels, a whole number from 1 to 16384"
@@ -170,53 +171,62 @@ static rlf_result read_color(const io_json_object *top, rlf_rig *rig)
     return result;
 }
 
-/* Largest entry of |R R^T - 1|. */
-static double rotation_error(const rlf_mat3 *rotation)
+/* Largest entry of |R R^T - 1|; infinity where R is not finite. */
+static double rotation_error(const double *rows)
 {
-    rlf_mat3 transposed = rlf_mat3_transpose(rotation);
-    rlf_mat3 product = rlf_mat3_mul(rotation, &transposed);
+    rlf_mat3 r;
+    memcpy(r.m, rows, sizeof(r.m));
+    const rlf_mat3 transposed = rlf_mat3_transpose(&r);
+    const rlf_mat3 product = rlf_mat3_mul(&r, &transposed);
     double worst = 0.0;
     for (int i = 0; i < 9; i++) {
-        double error = product.m[i / 3][i % 3] - (i / 3 == i % 3 ? 1.0 : 0.0);
-        worst = rlf_max(worst, error < 0.0 ? -error : error);
+        const double error = fabs(product.m[i / 3][i % 3] - (i / 3 == i % 3 ? 1.0 : 0.0));
+        worst = isfinite(error) ? rlf_max(worst, error) : INFINITY;
     }
     return worst;
 }
 
-static double determinant(const rlf_mat3 *a)
+static double determinant(const double *r)
 {
-    rlf_vec3 r0 = rlf_vec3_make(a->m[0][0], a->m[0][1], a->m[0][2]);
-    rlf_vec3 r1 = rlf_vec3_make(a->m[1][0], a->m[1][1], a->m[1][2]);
-    rlf_vec3 r2 = rlf_vec3_make(a->m[2][0], a->m[2][1], a->m[2][2]);
-    return rlf_dot(r0, rlf_cross(r1, r2));
+    return rlf_dot(rlf_vec3_make(r[0], r[1], r[2]),
+                   rlf_cross(rlf_vec3_make(r[3], r[4], r[5]), rlf_vec3_make(r[6], r[7], r[8])));
+}
+
+bool io_rotation_read(const double rows[9], double tolerance, rlf_quat *out)
+{
+    rlf_mat3 r;
+    memcpy(r.m, rows, sizeof(r.m));
+    if (!(rotation_error(rows) <= tolerance) || !(determinant(rows) > 0.0)) {
+        return false;
+    }
+    *out = rlf_quat_normalize(rlf_quat_from_mat3(&r));
+    return true;
 }
 
 static rlf_result read_rotation(const io_json_object *object, rlf_quat *out)
 {
     static const char meaning[] =
         "three rows of three numbers that form a rotation (orthogonal, determinant +1)";
-    const json_t *rows = json_object_get(object->value, "rotation");
-    rlf_mat3 rotation = {{{0}}};
-    bool is_complete = json_is_array(rows) && json_array_size(rows) == 3;
+    const json_t *list = json_object_get(object->value, "rotation");
+    double rows[9];
+    bool is_complete = json_is_array(list) && json_array_size(list) == 3;
     for (size_t r = 0; r < 3 && is_complete; r++) {
-        const json_t *row = json_array_get(rows, r);
+        const json_t *row = json_array_get(list, r);
         is_complete = json_is_array(row) && json_array_size(row) == 3;
         for (size_t c = 0; c < 3 && is_complete; c++) {
             is_complete = json_is_number(json_array_get(row, c));
-            rotation.m[r][c] = json_number_value(json_array_get(row, c));
+            rows[3 * r + c] = json_number_value(json_array_get(row, c));
         }
     }
     if (!is_complete) {
         return io_json_fail(object, "rotation", "is %s: it must be %s",
-                            rows == NULL ? "missing" : "not complete", meaning);
+                            list == NULL ? "missing" : "not complete", meaning);
     }
-    double error = rotation_error(&rotation);
-    if (!(error <= ROTATION_TOLERANCE) || !(determinant(&rotation) > 0.0)) {
+    if (!io_rotation_read(rows, ROTATION_TOLERANCE, out)) {
         return io_json_fail(object, "rotation",
                             "is not a rotation (off by %.3g, determinant %.3g): it must be %s",
-                            error, determinant(&rotation), meaning);
+                            rotation_error(rows), determinant(rows), meaning);
     }
-    *out = rlf_quat_normalize(rlf_quat_from_mat3(&rotation));
     return RLF_OK;
 }
 

@@ -1,9 +1,9 @@
-/* Room for one frame of a camera, kept while its driver goes on. */
-#include "io/live/live.h"
+/* A frame that stays while its source goes on. */
+#include "io/clip/clip.h"
 
 #include <string.h>
 
-rlf_result live_slot_create(const rlf_rig *rig, live_slot *out)
+rlf_result io_frame_copy_create(const rlf_rig *rig, io_frame_copy *out)
 {
     const size_t pixels = (size_t)rig->depth.width * (size_t)rig->depth.height;
     out->depth = rlf_alloc_array(pixels, sizeof(float));
@@ -16,7 +16,7 @@ rlf_result live_slot_create(const rlf_rig *rig, live_slot *out)
     return is_whole ? RLF_OK : RLF_ERROR_MEMORY;
 }
 
-void live_slot_destroy(live_slot *slot)
+void io_frame_copy_destroy(io_frame_copy *slot)
 {
     rlf_free(slot->depth);
     rlf_free(slot->color);
@@ -33,7 +33,7 @@ static void copy_rows(void *out, const void *from, ptrdiff_t stride, size_t row_
     }
 }
 
-void live_slot_copy(live_slot *slot, const rlf_rig *rig, const rlf_frame *f)
+void io_frame_copy_set(io_frame_copy *slot, const rlf_rig *rig, const rlf_frame *f)
 {
     const bool is_u16 = f->depth_u16 != NULL;
     const int32_t width = rig->depth.width;

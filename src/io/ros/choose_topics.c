@@ -22,8 +22,7 @@ static bool is_infrared(const char *topic)
     return has(topic, "infra") || has(topic, "/ir/") || has(topic, "/ir_");
 }
 
-/* How many parts of the path two topics begin with alike. */
-static int32_t common_parts(const char *a, const char *b)
+int32_t io_ros_common_parts(const char *a, const char *b)
 {
     int32_t count = 0;
     for (; *a != '\0' && *a == *b; a++, b++) {
@@ -57,34 +56,22 @@ static int32_t color_score(const io_ros_topics *topics, const io_ros_topic *t, c
     const int32_t score = 8 + (has(t->name, "rgb") || has(t->name, "color") ? 8 : 0) -
                           (is_other || is_infrared(t->name) ? 16 : 0) - (is_grey ? 4 : 0) +
                           (io_ros_has_info(topics, t) ? 4 : 0) -
-                          (has(t->name, "compressed") ? 1 : 0) + 2 * common_parts(t->name, depth);
+                          (has(t->name, "compressed") ? 1 : 0) +
+                          2 * io_ros_common_parts(t->name, depth);
     return score > 0 || is_other ? score : 1;
 }
 
-/* The best topic, more pictures first where two score alike; -1 = none. `frame`: only of that
- * frame_id, unless NULL. */
-static int32_t best_depth(const io_ros_topics *topics, const char *frame)
+/* The best topic of depth, or with `depth` named, of colour to go with it; more pictures first
+ * where two score alike; -1 = none. `frame`: only of that frame_id, unless NULL. */
+static int32_t find_best(const io_ros_topics *topics, const char *depth, const char *frame)
 {
     int32_t best = -1, best_score = 0;
     for (int32_t i = 0; i < topics->picture_count; i++) {
         const io_ros_topic *t = &topics->pictures[i];
         const bool is_of = frame == NULL || strcmp(frame, t->frame_id) == 0;
-        const int32_t score = is_of ? depth_score(topics, t) : 0;
-        const bool is_longer = best >= 0 && t->count > topics->pictures[best].count;
-        if (score > best_score || (score > 0 && score == best_score && is_longer)) {
-            best = i;
-            best_score = score;
-        }
-    }
-    return best;
-}
-
-static int32_t best_color(const io_ros_topics *topics, const char *depth)
-{
-    int32_t best = -1, best_score = 0;
-    for (int32_t i = 0; i < topics->picture_count; i++) {
-        const io_ros_topic *t = &topics->pictures[i];
-        const int32_t score = color_score(topics, t, depth);
+        const int32_t score = !is_of          ? 0
+                              : depth == NULL ? depth_score(topics, t)
+                                              : color_score(topics, t, depth);
         const bool is_longer = best >= 0 && t->count > topics->pictures[best].count;
         if (score > best_score || (score > 0 && score == best_score && is_longer)) {
             best = i;
@@ -170,7 +157,7 @@ static int32_t prefer_aligned(const io_ros_topics *topics, int32_t depth, int32_
         topics->is_joined(topics->self, d->frame_id, c->frame_id)) {
         return depth;
     }
-    const int32_t aligned = best_depth(topics, c->frame_id);
+    const int32_t aligned = find_best(topics, NULL, c->frame_id);
     if (aligned < 0 || !io_ros_has_info(topics, &topics->pictures[aligned])) {
         return depth;
     }
@@ -186,12 +173,12 @@ rlf_result io_ros_choose(const io_ros_topics *topics, const char *depth, const c
                          int32_t *out_depth, int32_t *out_color)
 {
     *out_color = -1;
-    *out_depth = depth != NULL ? find_named(topics, depth, true) : best_depth(topics, NULL);
+    *out_depth = depth != NULL ? find_named(topics, depth, true) : find_best(topics, NULL, NULL);
     if (*out_depth < 0) {
         return fail_depth(topics, depth);
     }
     if (color == NULL) {
-        *out_color = best_color(topics, topics->pictures[*out_depth].name);
+        *out_color = find_best(topics, topics->pictures[*out_depth].name, NULL);
     } else if (strcmp(color, "none") != 0) {
         *out_color = find_named(topics, color, false);
         if (*out_color < 0) {

@@ -1,7 +1,7 @@
 /* What a camera of ROS 2 is: its topics, and the first messages of each, which are read as those of
  * a recording are. */
-#ifndef RLF_IO_ROS2_GATHER_H
-#define RLF_IO_ROS2_GATHER_H
+#ifndef RLF_IO_ROS2_FIND_CAMERA_H
+#define RLF_IO_ROS2_FIND_CAMERA_H
 
 #include "io/ros/recording.h"
 #include "io/ros2/ros2.h"
@@ -41,18 +41,18 @@ typedef struct io_ros2_channel {
     int64_t clock_ns; /* least of arrival less sending, by the two clocks; INT64_MAX = not known */
 } io_ros2_channel;
 
-typedef struct io_ros2_gathered {
+typedef struct io_ros2_found {
     io_ros2_channel channels[IO_ROS2_CHANNELS_MAX];
     int32_t count;
-} io_ros2_gathered;
+} io_ros2_found;
 
 /* Waits for the camera to be found, and for a few messages of each of its topics; a second in all.
  * RLF_ERROR_DEVICE with one line when there is none. `out` is zero; free it whatever comes back. */
-rlf_result io_ros2_gather(io_ros2_node *node, const char *source, const io_ros2_wish *wish,
-                          io_ros2_gathered *out);
-void io_ros2_gathered_free(io_ros2_gathered *gathered);
-/* As a log of messages, which borrows from it. */
-io_ros_log io_ros2_gathered_log(io_ros2_gathered *gathered, const char *source);
+rlf_result io_ros2_find_camera(io_ros2_node *node, const char *source, const io_ros2_wish *wish,
+                               io_ros2_found *out);
+void io_ros2_found_free(io_ros2_found *found);
+/* As a log of messages, which borrows from it; io_ros_log_free it. */
+rlf_result io_ros2_found_log(io_ros2_found *found, const char *source, io_ros_log *out);
 
 /* A back end's `list`: cameras whose depth is published, within a fifth of a second. */
 int32_t io_ros2_list(rlf_source_entry *out, int32_t capacity);

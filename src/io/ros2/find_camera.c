@@ -1,12 +1,14 @@
 /* The first messages of a camera's topics. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/ros2/gather.h"
+#include "io/ros2/find_camera.h"
 
+#include <stdio.h>
 #include <string.h>
 #include <time.h>
 
 #define MS INT64_C(1000000)
 #define FIND_NS (900 * MS)  /* for somebody to answer */
+#define LIST_NS (180 * MS)  /* the same for a list of all */
 #define SETTLE_NS (60 * MS) /* all topics of one camera are told within this */
 #define LISTEN_NS (500 * MS)
 #define PAUSE_MS 10
@@ -19,12 +21,6 @@ int64_t io_ros2_now(void)
     struct timespec now = {0};
     clock_gettime(CLOCK_REALTIME, &now);
     return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
-}
-
-static void pause_ms(int32_t ms)
-{
-    const struct timespec rest = {.tv_nsec = (long)(ms * MS)};
-    nanosleep(&rest, NULL);
 }
 
 /* ---- finding -------------------------------------------------------------------------------- */
@@ -48,9 +44,10 @@ static rlf_result fail_absent(const char *source, const io_ros2_topic *topics, i
         source, length > 0 ? list : " none");
 }
 
-/* All topics, once there are pictures and no more come. */
-static rlf_result find(io_ros2_node *node, const char *source, const io_ros2_wish *wish,
-                       io_ros2_topic *topics, int32_t *out_count)
+/* All topics, once there are pictures of what is wished and no more come; or what is there after so
+ * long. */
+static int32_t discover(io_ros2_node *node, const io_ros2_wish *wish, int64_t wait_ns,
+                        io_ros2_topic *topics)
 {
     const int64_t begin_ns = rlf_clock_ns();
     int64_t changed_ns = begin_ns;
@@ -60,16 +57,13 @@ static rlf_result find(io_ros2_node *node, const char *source, const io_ros2_wis
         const int64_t now_ns = rlf_clock_ns();
         changed_ns = now_count != count ? now_ns : changed_ns;
         count = now_count;
-        const bool is_there = io_ros2_has_depth(topics, count, wish);
-        const bool is_late = now_ns - begin_ns >= FIND_NS;
-        if (is_there && (is_late || now_ns - changed_ns >= SETTLE_NS)) {
-            *out_count = count;
-            return RLF_OK;
+        const bool is_settled = now_ns - changed_ns >= SETTLE_NS &&
+                                (wish != NULL ? io_ros2_has_depth(topics, count, wish) : count > 0);
+        if (is_settled || now_ns - begin_ns >= wait_ns) {
+            return count;
         }
-        if (is_late) {
-            return fail_absent(source, topics, count);
-        }
-        pause_ms(PAUSE_MS);
+        const struct timespec rest = {.tv_nsec = (long)(PAUSE_MS * MS)};
+        nanosleep(&rest, NULL);
     }
 }
 
@@ -85,8 +79,7 @@ static io_ros_type type_of(const char *name)
     return IO_ROS_OTHER;
 }
 
-static rlf_result open_channel(io_ros2_node *node, const io_ros2_topic *topic,
-                               io_ros2_gathered *out)
+static rlf_result open_channel(io_ros2_node *node, const io_ros2_topic *topic, io_ros2_found *out)
 {
     io_ros2_channel *c = &out->channels[out->count];
     *c = (io_ros2_channel){.topic = *topic, .type = type_of(topic->type), .clock_ns = INT64_MAX};
@@ -136,7 +129,7 @@ static bool is_picture(const io_ros2_channel *c)
 }
 
 /* Whether each topic has said enough, or all pictures have when `is_late`. */
-static bool is_enough(const io_ros2_gathered *g, bool is_late)
+static bool is_enough(const io_ros2_found *g, bool is_late)
 {
     int32_t pictures = 0;
     for (int32_t i = 0; i < g->count; i++) {
@@ -150,7 +143,7 @@ static bool is_enough(const io_ros2_gathered *g, bool is_late)
     return pictures > 0;
 }
 
-static void listen(io_ros2_node *node, io_ros2_gathered *g)
+static void listen(io_ros2_node *node, io_ros2_found *g)
 {
     const int64_t begin_ns = rlf_clock_ns();
     for (;;) {
@@ -165,14 +158,18 @@ static void listen(io_ros2_node *node, io_ros2_gathered *g)
     }
 }
 
-rlf_result io_ros2_gather(io_ros2_node *node, const char *source, const io_ros2_wish *wish,
-                          io_ros2_gathered *out)
+rlf_result io_ros2_find_camera(io_ros2_node *node, const char *source, const io_ros2_wish *wish,
+                               io_ros2_found *out)
 {
     io_ros2_topic *topics = rlf_alloc_array(IO_ROS2_TOPICS_MAX, sizeof(topics[0]));
     int32_t chosen[IO_ROS2_CHANNELS_MAX];
     int32_t count = 0;
-    rlf_result result =
-        topics != NULL ? find(node, source, wish, topics, &count) : RLF_ERROR_MEMORY;
+    rlf_result result = topics != NULL ? RLF_OK : RLF_ERROR_MEMORY;
+    if (result == RLF_OK) {
+        count = discover(node, wish, FIND_NS, topics);
+        result =
+            io_ros2_has_depth(topics, count, wish) ? RLF_OK : fail_absent(source, topics, count);
+    }
     const int32_t wanted =
         result == RLF_OK ? io_ros2_choose_topics(topics, count, wish, chosen, IO_ROS2_CHANNELS_MAX)
                          : 0;
@@ -186,7 +183,7 @@ rlf_result io_ros2_gather(io_ros2_node *node, const char *source, const io_ros2_
     return result;
 }
 
-void io_ros2_gathered_free(io_ros2_gathered *g)
+void io_ros2_found_free(io_ros2_found *g)
 {
     for (int32_t i = 0; i < g->count; i++) {
         io_ros2_channel *c = &g->channels[i];
@@ -200,36 +197,75 @@ void io_ros2_gathered_free(io_ros2_gathered *g)
 
 /* ---- as a log ------------------------------------------------------------------------------- */
 
-static io_ros_channel channel_at(void *self, int32_t index)
+/* Of message k of channel i the place is i and k. */
+static rlf_result read_message(void *self, const io_ros_message *message, io_cdr_reader *out)
 {
-    const io_ros2_gathered *g = self;
-    const io_ros2_channel *c = &g->channels[index];
-    return (io_ros_channel){c->topic.name, c->type, index * IO_ROS2_FIRST_MAX, c->kept};
-}
-
-static int64_t time_of(void *self, int32_t message)
-{
-    const io_ros2_gathered *g = self;
-    return g->channels[message / IO_ROS2_FIRST_MAX].messages[message % IO_ROS2_FIRST_MAX].sent_ns;
-}
-
-static rlf_result read_message(void *self, int32_t message, io_cdr_reader *out)
-{
-    const io_ros2_gathered *g = self;
-    const io_ros2_message *m =
-        &g->channels[message / IO_ROS2_FIRST_MAX].messages[message % IO_ROS2_FIRST_MAX];
+    const io_ros2_found *g = self;
+    const io_ros2_message *m = &g->channels[message->chunk].messages[message->offset];
     *out = io_cdr_open(m->data, m->size);
     return RLF_OK;
 }
 
-io_ros_log io_ros2_gathered_log(io_ros2_gathered *g, const char *source)
+rlf_result io_ros2_found_log(io_ros2_found *g, const char *source, io_ros_log *out)
 {
-    return (io_ros_log){.name = source,
-                        .is_live = true,
-                        .strangers = "",
-                        .channel_count = g->count,
-                        .self = g,
-                        .channel = channel_at,
-                        .time = time_of,
-                        .read = read_message};
+    *out = (io_ros_log){.name = source, .is_live = true, .self = g, .read = read_message};
+    for (int32_t i = 0; i < g->count; i++) {
+        const io_ros2_channel *c = &g->channels[i];
+        io_ros_log_add_channel(out, (uint32_t)i, c->type, c->topic.name, INT32_MAX);
+        for (int32_t k = 0; k < c->kept; k++) {
+            io_ros_log_add_message(out, (uint32_t)i, c->messages[k].sent_ns, i, (uint64_t)k);
+        }
+    }
+    return io_ros_log_sort(out);
+}
+
+/* ---- cameras that run ------------------------------------------------------------------------ */
+
+static bool is_listed(const rlf_source_entry *out, int32_t count, const char *source)
+{
+    for (int32_t i = 0; i < count; i++) {
+        if (strcmp(out[i].source, source) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static int32_t list_cameras(const io_ros2_topic *topics, int32_t topic_count, rlf_source_entry *out,
+                            int32_t capacity)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < topic_count && count < capacity; i++) {
+        char camera[IO_ROS2_TOPIC_MAX];
+        char source[sizeof(out[0].source)];
+        if (!io_ros2_camera_of(&topics[i], camera, sizeof(camera))) {
+            continue;
+        }
+        snprintf(source, sizeof(source), "ros2:%.240s", camera[0] != '\0' ? camera : "/");
+        if (!is_listed(out, count, source)) {
+            memcpy(out[count].source, source, sizeof(source));
+            snprintf(out[count].description, sizeof(out[count].description),
+                     "ROS 2 camera, depth %.90s", topics[i].name);
+            count++;
+        }
+    }
+    return count;
+}
+
+int32_t io_ros2_list(rlf_source_entry *out, int32_t capacity)
+{
+    io_ros2_topic *topics = rlf_alloc_array(IO_ROS2_TOPICS_MAX, sizeof(topics[0]));
+    io_ros2_place place;
+    io_ros2_node *node = NULL;
+    if (topics == NULL || capacity < 1 ||
+        io_ros2_place_read("ros2", NULL, NULL, &place) != RLF_OK ||
+        io_ros2_node_open("ros2", &place, &node) != RLF_OK) {
+        rlf_free(topics);
+        return 0;
+    }
+    const int32_t count = discover(node, NULL, LIST_NS, topics);
+    const int32_t found = list_cameras(topics, count, out, capacity);
+    io_ros2_node_close(&node);
+    rlf_free(topics);
+    return found;
 }

@@ -1,11 +1,11 @@
 /* What of a frame is published, copied within the frame loop. */
-#include "io/ros2/moment.h"
+#include "io/ros2/publish.h"
 
 #include <string.h>
 
 #define PLANES 6
 
-rlf_result io_ros2_moment_create(const rlf_rig *rig, io_ros2_moment *m)
+rlf_result io_ros2_run_frame_create(const rlf_rig *rig, io_ros2_run_frame *m)
 {
     memset(m, 0, sizeof(*m));
     m->bodies = rlf_alloc_array(IO_ROS2_BODIES_MAX, sizeof(m->bodies[0]));
@@ -15,12 +15,12 @@ rlf_result io_ros2_moment_create(const rlf_rig *rig, io_ros2_moment *m)
     m->triangles = rlf_alloc_array(IO_ROS2_HULL_CORNERS, sizeof(m->triangles[0]));
     const bool is_whole = m->bodies != NULL && m->hulls != NULL && m->contacts != NULL &&
                           m->corners != NULL && m->triangles != NULL;
-    return is_whole ? live_slot_create(rig, &m->frame) : RLF_ERROR_MEMORY;
+    return is_whole ? io_frame_copy_create(rig, &m->frame) : RLF_ERROR_MEMORY;
 }
 
-void io_ros2_moment_destroy(io_ros2_moment *m)
+void io_ros2_run_frame_destroy(io_ros2_run_frame *m)
 {
-    live_slot_destroy(&m->frame);
+    io_frame_copy_destroy(&m->frame);
     rlf_free(m->picture.data);
     rlf_free(m->planes);
     rlf_free(m->mask);
@@ -33,7 +33,7 @@ void io_ros2_moment_destroy(io_ros2_moment *m)
 }
 
 /* False without memory. */
-static bool copy_picture(io_ros2_moment *m, const rlf_image_rgba8 *from)
+static bool copy_picture(io_ros2_run_frame *m, const rlf_image_rgba8 *from)
 {
     const size_t row = (size_t)from->width * 4;
     const size_t size = row * (size_t)from->height;
@@ -57,7 +57,7 @@ static bool copy_picture(io_ros2_moment *m, const rlf_image_rgba8 *from)
     return true;
 }
 
-static bool copy_planes(io_ros2_moment *m, uint32_t wanted, const rlf_surface *s)
+static bool copy_planes(io_ros2_run_frame *m, uint32_t wanted, const rlf_surface *s)
 {
     const size_t count = (size_t)s->width * (size_t)s->height;
     if (count > m->plane_room) {
@@ -84,7 +84,7 @@ static bool copy_planes(io_ros2_moment *m, uint32_t wanted, const rlf_surface *s
 }
 
 /* A body may go, and its hull with it, before it is sent. */
-static void copy_bodies(io_ros2_moment *m, const rlf_snapshot *s)
+static void copy_bodies(io_ros2_run_frame *m, const rlf_snapshot *s)
 {
     int32_t corners = 0, triangles = 0;
     m->body_count = 0;
@@ -112,7 +112,7 @@ static void copy_bodies(io_ros2_moment *m, const rlf_snapshot *s)
     }
 }
 
-static void copy_contacts(io_ros2_moment *m, const rlf_snapshot *s)
+static void copy_contacts(io_ros2_run_frame *m, const rlf_snapshot *s)
 {
     m->contact_count =
         s->contact_count < IO_ROS2_CONTACTS_MAX ? s->contact_count : IO_ROS2_CONTACTS_MAX;
@@ -121,14 +121,14 @@ static void copy_contacts(io_ros2_moment *m, const rlf_snapshot *s)
     }
 }
 
-void io_ros2_moment_fill(io_ros2_moment *m, const rlf_rig *rig, uint32_t wanted,
-                         const rlf_pipeline_output *from)
+void io_ros2_run_frame_fill(io_ros2_run_frame *m, const rlf_rig *rig, uint32_t wanted,
+                            const rlf_pipeline_output *from)
 {
     m->time_ns = from->frame.time_ns;
     m->T_world_camera = from->T_world_camera;
     m->parts = wanted;
     if ((wanted & IO_ROS2_FRAME) != 0) {
-        live_slot_copy(&m->frame, rig, &from->frame);
+        io_frame_copy_set(&m->frame, rig, &from->frame);
     }
     if ((wanted & IO_ROS2_PICTURE) != 0 && !copy_picture(m, &from->render.image)) {
         m->parts &= ~(uint32_t)IO_ROS2_PICTURE;

@@ -1,6 +1,7 @@
 /* Frames as a camera's topics. */
-#include "io/ros2/camera_out.h"
+#include "io/ros2/publish.h"
 
+#include "io/ros2/find_camera.h"
 #include "io/source/address.h"
 
 #include <stdio.h>
@@ -31,7 +32,8 @@ rlf_result io_ros2_target_read(const char *address, io_ros2_target *out)
     return io_ros2_place_read(address, domain, profile, &out->place);
 }
 
-bool io_ros2_name(const char *name, const char *part, char out[IO_ROS2_TOPIC_MAX])
+/* "NAME/PART"; false when it is too long. */
+static bool name_topic(const char *name, const char *part, char out[IO_ROS2_TOPIC_MAX])
 {
     size_t length = strlen(name);
     while (length > 0 && name[length - 1] == '/') {
@@ -64,39 +66,39 @@ int64_t io_ros2_clock_offset(io_ros2_clock *clock, int64_t time_ns, int64_t now_
 
 /* ---- topics --------------------------------------------------------------------------------- */
 
-static rlf_result open_writer(io_ros2_node *node, const char *name, const char *part,
-                              io_ros_type type, io_ros2_writer *out)
+rlf_result io_ros2_open_outputs(io_ros2_node *node, const char *name, const io_ros2_output *rows,
+                                size_t count)
 {
-    char topic[IO_ROS2_TOPIC_MAX];
-    if (!io_ros2_name(name, part, topic)) {
-        return rlf_fail(RLF_ERROR_INVALID, "ros2:%.60s: the name is too long for a topic", name);
+    rlf_result result = RLF_OK;
+    for (size_t i = 0; i < count && result == RLF_OK; i++) {
+        char topic[IO_ROS2_TOPIC_MAX];
+        result =
+            name_topic(name, rows[i].part, topic)
+                ? io_ros2_writer_open(node, topic, rows[i].type, false, rows[i].out)
+                : rlf_fail(RLF_ERROR_INVALID, "ros2:%.60s: the name is too long for a topic", name);
     }
-    return io_ros2_writer_open(node, topic, io_ros_type_name(type), false, out);
+    return result;
 }
 
 rlf_result io_ros2_camera_open(io_ros2_node *node, const char *name, const rlf_rig *rig,
                                const rlf_recording_def *def, io_ros2_camera *c)
 {
-    struct {
-        const char *part;
-        io_ros_type type;
-        io_ros2_writer *out;
-    } const rows[] = {
-        {"depth/image_raw", IO_ROS_IMAGE, &c->depth},
-        {"depth/image_raw/compressedDepth", IO_ROS_COMPRESSED_IMAGE, &c->depth_packed},
-        {"depth/camera_info", IO_ROS_CAMERA_INFO, &c->depth_info},
-        {"color/image_raw", IO_ROS_IMAGE, &c->color},
-        {"color/image_raw/compressed", IO_ROS_COMPRESSED_IMAGE, &c->color_packed},
-        {"color/camera_info", IO_ROS_CAMERA_INFO, &c->color_info}};
+    const char *image = io_ros_type_name(IO_ROS_IMAGE);
+    const char *packed = io_ros_type_name(IO_ROS_COMPRESSED_IMAGE);
+    const char *info = io_ros_type_name(IO_ROS_CAMERA_INFO);
+    const io_ros2_output rows[] = {{"depth/image_raw", image, &c->depth},
+                                   {"depth/image_raw/compressedDepth", packed, &c->depth_packed},
+                                   {"depth/camera_info", info, &c->depth_info},
+                                   {"color/image_raw", image, &c->color},
+                                   {"color/image_raw/compressed", packed, &c->color_packed},
+                                   {"color/camera_info", info, &c->color_info}};
     const size_t count = rig->has_color ? 6 : 3;
     rlf_result result = io_ros_encoder_init(&c->encoder, rig, def);
     c->units = rlf_alloc_array((size_t)rig->depth.width * (size_t)rig->depth.height, 4);
     result = result == RLF_OK && c->units == NULL ? RLF_ERROR_MEMORY : result;
     io_ros2_frame_name(name, "depth_optical_frame", c->depth_frame);
     io_ros2_frame_name(name, "color_optical_frame", c->color_frame);
-    for (size_t i = 0; i < count && result == RLF_OK; i++) {
-        result = open_writer(node, name, rows[i].part, rows[i].type, rows[i].out);
-    }
+    result = result == RLF_OK ? io_ros2_open_outputs(node, name, rows, count) : result;
     if (result == RLF_OK && rig->has_color) {
         result = io_ros2_writer_open(node, "/tf_static", io_ros_type_name(IO_ROS_TF), true,
                                      &c->tf_static);
@@ -154,51 +156,35 @@ static rlf_result send_transform(io_ros2_camera *c, int64_t stamp_ns)
 
 /* ---- depth ---------------------------------------------------------------------------------- */
 
-/* ROS's counts are millimetres, so others go as metres. */
-static rlf_frame in_metres(io_ros2_camera *c, const rlf_frame *frame)
+/* The frame's depth in other units: as metres, or rounded to millimetres, since RVL has counts
+ * alone. */
+static rlf_frame convert(io_ros2_camera *c, const rlf_frame *frame, bool to_metres)
 {
     const rlf_camera *camera = &c->encoder.rig.depth;
-    float *out = c->units;
-    rlf_frame metres = *frame;
-    for (int32_t y = 0; y < camera->height; y++) {
-        const uint16_t *row = (const uint16_t *)(const void *)((const char *)frame->depth_u16 +
-                                                               (ptrdiff_t)y * frame->depth_stride);
-        for (int32_t x = 0; x < camera->width; x++) {
-            out[(size_t)y * (size_t)camera->width + (size_t)x] =
-                (float)((double)row[x] / frame->depth_units_per_metre);
-        }
-    }
-    metres.depth_u16 = NULL;
-    metres.depth_f32 = out;
-    metres.depth_stride = (ptrdiff_t)camera->width * 4;
-    return metres;
-}
-
-/* To be packed, as RVL has counts alone: rounded to millimetres. */
-static rlf_frame in_millimetres(io_ros2_camera *c, const rlf_frame *frame)
-{
-    const rlf_camera *camera = &c->encoder.rig.depth;
-    uint16_t *out = c->units;
-    rlf_frame counts = *frame;
+    rlf_frame out = *frame;
+    const double per_metre = frame->depth_f32 != NULL ? 1.0 : frame->depth_units_per_metre;
     for (int32_t y = 0; y < camera->height; y++) {
         const char *row = frame->depth_f32 != NULL ? (const char *)frame->depth_f32
                                                    : (const char *)frame->depth_u16;
         row += (ptrdiff_t)y * frame->depth_stride;
         for (int32_t x = 0; x < camera->width; x++) {
-            const double metres = frame->depth_f32 != NULL
-                                      ? (double)((const float *)(const void *)row)[x]
-                                      : (double)((const uint16_t *)(const void *)row)[x] /
-                                            frame->depth_units_per_metre;
-            const double mm = metres * MM_PER_M + 0.5;
-            out[(size_t)y * (size_t)camera->width + (size_t)x] =
-                mm > 0.5 && mm < 65536.0 ? (uint16_t)mm : 0;
+            const size_t i = (size_t)y * (size_t)camera->width + (size_t)x;
+            const double count = frame->depth_f32 != NULL
+                                     ? (double)((const float *)(const void *)row)[x]
+                                     : (double)((const uint16_t *)(const void *)row)[x];
+            const double mm = count / per_metre * MM_PER_M + 0.5;
+            if (to_metres) {
+                ((float *)c->units)[i] = (float)(count / per_metre);
+            } else {
+                ((uint16_t *)c->units)[i] = mm > 0.5 && mm < 65536.0 ? (uint16_t)mm : 0;
+            }
         }
     }
-    counts.depth_f32 = NULL;
-    counts.depth_u16 = out;
-    counts.depth_stride = (ptrdiff_t)camera->width * 2;
-    counts.depth_units_per_metre = MM_PER_M;
-    return counts;
+    out.depth_f32 = to_metres ? c->units : NULL;
+    out.depth_u16 = to_metres ? NULL : c->units;
+    out.depth_stride = (ptrdiff_t)camera->width * (to_metres ? 4 : 2);
+    out.depth_units_per_metre = to_metres ? 0.0 : MM_PER_M;
+    return out;
 }
 
 static rlf_result send_depth(io_ros2_camera *c, const rlf_frame *frame, int64_t stamp_ns)
@@ -210,13 +196,13 @@ static rlf_result send_depth(io_ros2_camera *c, const rlf_frame *frame, int64_t 
     rlf_result result = send_info(c, &c->depth_info, &header, &c->encoder.rig.depth);
     if (result == RLF_OK && io_ros2_writer_is_read(&c->depth)) {
         io_cdr_writer cdr = begin(c);
-        const rlf_frame to = is_mm || frame->depth_f32 != NULL ? *frame : in_metres(c, frame);
+        const rlf_frame to = is_mm || frame->depth_f32 != NULL ? *frame : convert(c, frame, true);
         io_ros_write_depth(&c->encoder, &to, &header, &cdr);
         result = send(c, &c->depth, RLF_OK);
     }
     if (result == RLF_OK && io_ros2_writer_is_read(&c->depth_packed)) {
         io_cdr_writer cdr = begin(c);
-        const rlf_frame to = is_mm ? *frame : in_millimetres(c, frame);
+        const rlf_frame to = is_mm ? *frame : convert(c, frame, false);
         result = io_ros_write_counts(&c->encoder, &to, &header, &cdr);
         result = send(c, &c->depth_packed, result);
     }
@@ -255,4 +241,67 @@ rlf_result io_ros2_camera_send(io_ros2_camera *c, const rlf_frame *frame, int64_
         result = send_color(c, &frame->color, c->last_color_ns);
     }
     return result;
+}
+
+/* ---- `relief record SOURCE ros2:/camera`: a machine that lends its camera to others -----------
+ */
+
+typedef struct host {
+    io_ros2_node *node;
+    io_ros2_camera camera;
+    io_ros2_clock clock;
+} host;
+
+static rlf_result host_add(void *self, const rlf_frame *frame)
+{
+    host *h = self;
+    const int64_t offset_ns = io_ros2_clock_offset(&h->clock, frame->time_ns, io_ros2_now());
+    return io_ros2_camera_send(&h->camera, frame, offset_ns);
+}
+
+static uint64_t host_bytes(const void *self)
+{
+    return ((const host *)self)->camera.bytes;
+}
+
+static rlf_result host_close(void *self, rlf_recording_status *status)
+{
+    host *h = self;
+    status->bytes = h->camera.bytes;
+    if (h->camera.dropped > 0) {
+        rlf_log(RLF_LOG_WARNING, "ros2: %llu messages were not sent: a reader was too slow",
+                (unsigned long long)h->camera.dropped);
+    }
+    io_ros2_node_close(&h->node);
+    io_ros2_camera_close(&h->camera);
+    rlf_free(h);
+    return RLF_OK;
+}
+
+static rlf_result open_all(host *h, const char *path, const rlf_source_info *info,
+                           const rlf_recording_def *def)
+{
+    io_ros2_target target;
+    rlf_result result = io_ros2_target_read(path, &target);
+    result = result == RLF_OK ? io_ros2_node_open(path, &target.place, &h->node) : result;
+    return result == RLF_OK ? io_ros2_camera_open(h->node, target.name, &info->rig, def, &h->camera)
+                            : result;
+}
+
+rlf_result io_ros2_sink_open(const char *path, const rlf_source_info *info,
+                             const rlf_recording_def *def, io_sink *out)
+{
+    host *h = rlf_alloc(sizeof(*h));
+    if (h == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    rlf_result result = open_all(h, path, info, def);
+    if (result != RLF_OK) {
+        io_ros2_node_close(&h->node);
+        io_ros2_camera_close(&h->camera);
+        rlf_free(h);
+        return result;
+    }
+    *out = (io_sink){.add = host_add, .close = host_close, .bytes = host_bytes, .self = h};
+    return RLF_OK;
 }
