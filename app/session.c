@@ -1,7 +1,6 @@
 /* Opens and closes what a run needs. */
 #define _POSIX_C_SOURCE 200809L
 #include "session.h"
-#include "session_cameras.h"
 
 #include <string.h>
 #include <sys/stat.h>

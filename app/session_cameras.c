@@ -1,5 +1,5 @@
 /* Several cameras of one room. */
-#include "session_cameras.h"
+#include "session.h"
 
 #include <string.h>
 
