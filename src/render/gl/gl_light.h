@@ -11,7 +11,7 @@
 /* ---- gl_caster.c: bodies that take light away, in shaders: the same formulas as caster.c. */
 
 typedef struct gl_caster_uniforms {
-    GLint center, to_body, half_size, to_light, numbers, crease;
+    GLint center, to_body, half_size, to_light, numbers, crease, edge_count, edges;
 } gl_caster_uniforms;
 
 /* GLSL: `struct caster` and `vec2 light_lost(caster c, vec2 ray, float z)`: shares of the light
