@@ -77,7 +77,7 @@ void gl_obscurance_set(const gl_obscurance_uniforms *uniforms, const gl_obscuran
 /* ---- gl_probe.c: light by place, and gloss: see probe.h. */
 
 /* GLSL: `vec3 sent(vec3 color, vec3 n, vec3 to_lamp, vec3 to_eye, vec2 left)`: the codes of what a
- * surface of a linear colour sends. */
+ * surface of a linear colour and of `material` sends. */
 extern const char gl_probe_glsl[];
 
 /* The probes of a picture's bodies, and their maps. */
