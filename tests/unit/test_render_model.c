@@ -4,7 +4,7 @@
 #include "render_scene.h"
 #include "test.h"
 
-#define GOLDEN_HASH 0xf57d153b4781007bu
+#define GOLDEN_HASH 0xd293762f84e4fcb4u
 
 static rlf_render_output draw(render_scene *s, rlf_compositor *compositor)
 {

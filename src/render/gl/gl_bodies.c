@@ -101,8 +101,11 @@ static const char body_fragment[] =
     "    vec3 pattern = u_has_skin ? texture(u_skin, v_uv).rgb\n"
     "                              : textureLod(u_textures, uv_layer, u_level).rgb;\n"
     "    vec3 seen = u_picture_camera * normal;\n"
+    "    vec3 by_x = dFdx(normal), by_y = dFdy(normal);\n" /* as material_of in shade.c */
+    "    float turn = min(0.25 * (dot(by_x, by_x) + dot(by_y, by_y)), 0.18);\n"
     "    material = u_material;\n"
     "    if (u_has_skin) {\n"
+    "        material.y = turn > 1e-3 ? sqrt(sqrt(pow(material.y, 4.0) + turn)) : material.y;\n"
     "        material *= texture(u_surface, v_uv).bg;\n"
     "    }\n"
     "    if (u_has_normals) {\n"

@@ -267,6 +267,26 @@ RLF_KERNEL_PART soft_depth_range fading_range(const soft_face *f, const soft_rea
     return range;
 }
 
+/* Of a model's face. Where normals turn much within a pixel it mirrors what they all do, as a
+ * rougher one does: Kaplanyan, Hill, Patney and Lefohn 2016. */
+static probe_material material_of(const soft_face *f, probe_material material)
+{
+    const float z = 1.0f / f->inverse_z.at0;
+    float turn = 0.0f;
+    for (int k = SOFT_NORMAL; k < SOFT_NORMAL + 3; k++) {
+        const float n = f->attribute[k].at0 * z;
+        const float dx = (f->attribute[k].dx - n * f->inverse_z.dx) * z;
+        const float dy = (f->attribute[k].dy - n * f->inverse_z.dy) * z;
+        turn += 0.25f * (dx * dx + dy * dy);
+    }
+    turn = turn < PROBE_TURN ? turn : PROBE_TURN;
+    const float square = material.roughness * material.roughness;
+    if (turn > 1e-3f) {
+        material.roughness = sqrtf(sqrtf(square * square + turn));
+    }
+    return material;
+}
+
 RLF_KERNEL void soft_shade_faces(const soft *s, const soft_ends *ends, int32_t count,
                                  const soft_group *group)
 {
@@ -285,7 +305,8 @@ RLF_KERNEL void soft_shade_faces(const soft *s, const soft_ends *ends, int32_t c
             stream.body = body;
             stream.has_skin = has_skin;
         }
-        stream.material = has_skin ? s->scene.skins[face->skin].material : body->material;
+        stream.material =
+            has_skin ? material_of(face, s->scene.skins[face->skin].material) : body->material;
         const shading job = {
             s, group, face, &ends[i], id, fading_range(face, &group->rows[0].real), &stream};
         shade_face(&job);
