@@ -40,6 +40,10 @@ typedef struct rlf_model_part {
     float metallic; /* 0..1: 0 = paint, rubber, wood; 1 = bare metal, whose colour is what it
                        mirrors */
     float gloss;    /* 0..1: 1 minus the roughness of glTF; 0 = matt */
+    int32_t surface_texture; /* 1 + the index of the texture whose green multiplies the roughness
+                                and whose blue the metal, as they are; 0 = none */
+    int32_t normal_texture;  /* 1 + that of normals: red to larger u, green to smaller v, blue
+                                outwards; 0 = none */
 } rlf_model_part;
 
 /* RGBA of a texture and of its smaller levels, one after the other without padding: a level has
@@ -61,7 +65,7 @@ typedef struct rlf_model {
     const rlf_model_part *parts;       /* in order; together all triangles */
     int32_t part_count;                /* at least 1 */
     const rlf_model_texture *textures; /* NULL when there is none */
-    int32_t texture_count;             /* of those that parts name by index */
+    int32_t texture_count;             /* of those that parts name */
     rlf_aabb box;                      /* of the vertices */
     double radius;                     /* of the vertices from the origin */
     uint64_t id;                       /* hash of all of the above: equal models have equal ids */

@@ -1,4 +1,4 @@
-"""relief-lab: eval and measure here; bench and the sections that are not Python's in C."""
+"""relief-lab: eval, measure and pairs here; bench and the sections that are not Python's in C."""
 
 import importlib
 import os
@@ -14,6 +14,7 @@ Relief's laboratory measures Relief itself: accuracy, time and memory.
 
   eval       accuracy where the truth is known, against goals and bounds
   measure    missing points and wrong normals: table 5.1 of the thesis
+  pairs      which picture looks real? a page that asks
   bench      time and memory of every stage, and how they grow
 
 examples:
@@ -61,7 +62,7 @@ def main():
     if not words or words[0] in ("help", "--help", "-h"):
         print(HELP, end="")
         return 0
-    if words[0] in ("eval", "measure"):
+    if words[0] in ("eval", "measure", "pairs"):
         return run(words[0], words[1:])
     os.execv(sections.SECTIONS_PROGRAM, [sections.SECTIONS_PROGRAM, *words])
     return 1

@@ -21,6 +21,7 @@
 #define FOREIGN 900.0f        /* that of a far side whose colour is not known, */
 #define MOST_FOREIGN 0.9f     /* and nats that this says at most: rims are not all alike */
 #define STEEPEST 4.0f         /* slope of a plane that goes on, along z per metre across */
+#define CLEARLY 0.1f          /* mean nats from which a surface goes on into nothing */
 #define NO_CHOICE (-1.0f)
 #define VOTE 2 /* pixels around one that have a say */
 
@@ -47,13 +48,15 @@ rlf_result lost_depth_create(const rlf_registration *registration, const rlf_cam
     out->far_z = rlf_alloc_array(pixels, sizeof(float));
     out->near_z = rlf_alloc_array(pixels, sizeof(float));
     out->nats = rlf_alloc_array(pixels, sizeof(float));
+    out->is_open = rlf_alloc(pixels);
+    out->open = rlf_alloc_array((size_t)out->columns * (size_t)out->rows, sizeof(*out->open));
     out->nearest = rlf_alloc_array((size_t)out->rows, sizeof(float));
     has_all = has_all && out->nearest != NULL;
     out->cells = rlf_alloc((size_t)out->columns * (size_t)out->rows);
     out->body_near =
         rlf_alloc_array((size_t)out->columns * (size_t)out->rows, sizeof(*out->body_near));
     has_all = has_all && out->body_near != NULL && out->far_z != NULL && out->near_z != NULL &&
-              out->nats != NULL && out->cells != NULL;
+              out->nats != NULL && out->cells != NULL && out->is_open != NULL && out->open != NULL;
     rlf_result result =
         has_all ? background_color_create(registration, depth, T_picture_depth, &out->background)
                 : RLF_ERROR_MEMORY;
@@ -70,6 +73,8 @@ void lost_depth_destroy(lost_depth *l)
     }
     rlf_free(l->far_z);
     rlf_free(l->nats);
+    rlf_free(l->is_open);
+    rlf_free(l->open);
     rlf_free(l->near_z);
     rlf_free(l->cells);
     rlf_free(l->body_near);
@@ -301,6 +306,17 @@ static float evidence(const pass *p, int32_t i, const around *a, float near_z, f
     return told != 0 ? TOLD * (float)told : nats + color_evidence(p, i, a, near_z, far_z);
 }
 
+/* True when as little of what is around a pixel encloses it as there is nothing behind. */
+static bool is_open(const around *a)
+{
+    return a->near_count == a->count && a->missing >= a->near_count;
+}
+
+static float within_vote(float nats)
+{
+    return nats > MOST_NATS ? MOST_NATS : (nats < -MOST_NATS ? -MOST_NATS : nats);
+}
+
 /* ---- passes --------------------------------------------------------------------------------- */
 
 static void settle(const pass *p, int32_t x, int32_t y)
@@ -326,6 +342,13 @@ static void settle(const pass *p, int32_t x, int32_t y)
     p->l->far_z[i] = far_z;
     p->l->near_z[i] = near_z;
     p->l->nats[i] = nats;
+    p->l->is_open[i] = is_open(&a) ? 1 : 0;
+    lost_depth_open *open = &p->l->open[y / CELL * p->l->columns + x / CELL];
+    if (p->l->is_open[i] != 0) {
+        open->nats += within_vote(nats);
+        open->inverse += 1.0f / near_z;
+        open->count += 1.0f;
+    }
     p->depth[i] = nats > 0.0f ? near_z : far_z;
     float *nearest = &p->l->nearest[y / CELL];
     *nearest = near_z < *nearest ? near_z : *nearest;
@@ -347,9 +370,32 @@ static float mean_nats(const pass *p, int32_t x, int32_t y, float middle)
                 sum += p->depth[i] * middle < 1.0f ? MOST_NATS : -MOST_NATS;
             } else if (l->cells[(y + dy) / CELL * l->columns + (x + dx) / CELL] != 0 &&
                        l->far_z[i] >= 0.0f) {
-                const float nats = l->nats[i];
-                sum += nats > MOST_NATS ? MOST_NATS : (nats < -MOST_NATS ? -MOST_NATS : nats);
+                sum += within_vote(l->nats[i]);
             }
+        }
+    }
+    return sum;
+}
+
+/* Open pixels about one, linear between the middles of cells: where nothing encloses the end of a
+ * surface it goes on as far, and as it does, for all of them together. */
+static lost_depth_open open_about(const lost_depth *l, int32_t x, int32_t y)
+{
+    const float at[2] = {((float)x + 0.5f) / (float)CELL + 0.5f,
+                         ((float)y + 0.5f) / (float)CELL + 0.5f};
+    const int32_t column = (int32_t)at[0];
+    const int32_t row = (int32_t)at[1];
+    lost_depth_open sum = {0.0f, 0.0f, 0.0f};
+    for (int k = 0; k < 4; k++) {
+        const int32_t c = column - (k & 1);
+        const int32_t r = row - (k >> 1);
+        if (c >= 0 && r >= 0 && c < l->columns && r < l->rows) {
+            const float across = (k & 1) != 0 ? (float)(column + 1) - at[0] : at[0] - (float)column;
+            const float down = (k >> 1) != 0 ? (float)(row + 1) - at[1] : at[1] - (float)row;
+            const lost_depth_open *open = &l->open[r * l->columns + c];
+            sum.nats += across * down * open->nats;
+            sum.inverse += across * down * open->inverse;
+            sum.count += across * down * open->count;
         }
     }
     return sum;
@@ -361,6 +407,11 @@ static void vote(const pass *p, int32_t x, int32_t y)
     lost_depth *l = p->l;
     const int32_t i = y * l->width + x;
     if (l->far_z[i] < 0.0f || l->nats[i] >= TOLD || l->nats[i] <= -TOLD) {
+        return;
+    }
+    if (l->is_open[i] != 0) {
+        const lost_depth_open open = open_about(l, x, y);
+        p->depth[i] = open.nats > CLEARLY * open.count ? open.count / open.inverse : 0.0f;
         return;
     }
     const float far_inverse = l->far_z[i] > 0.0f ? 1.0f / l->far_z[i] : 0.0f;
@@ -440,6 +491,7 @@ static void mark_cells(const pass *p, const edge_matte *bodies, const real_windo
         registration_pixel(p->registration, y * l->width + x, z > 0.0f ? z : 1e3f, at);
         l->cells[i] = is_in_window(needed, at) ? 1 : 0;
         l->body_near[i] = body_near_at(bodies, at);
+        l->open[i] = (lost_depth_open){0.0f, 0.0f, 0.0f};
     }
 }
 

@@ -41,6 +41,12 @@ void real_windows_join(real_windows *windows, const rlf_registration *registrati
 static const int32_t lost_depth_way[LOST_DEPTH_WAYS][2] = {{-1, 0}, {0, -1}, {-1, -1}, {1, -1},
                                                            {1, 0},  {0, 1},  {1, 1},   {-1, 1}};
 
+/* Sums over pixels at the end of a surface that nothing encloses: what speaks for its going on, and
+ * one over how far it would be. */
+typedef struct lost_depth_open {
+    float nats, inverse, count;
+} lost_depth_open;
+
 typedef struct lost_depth {
     int32_t width, height; /* of the depth grid */
     float focal;           /* grid pixels per metre at one metre */
@@ -49,6 +55,8 @@ typedef struct lost_depth {
     uint8_t *away[LOST_DEPTH_WAYS]; /* pixels to the next seen one; 255 = none. Work memory, as: */
     float *near_z, *far_z, *nats;   /* both sides, and what speaks for the near one; far_z 0 =
                                        nothing, < 0 = there is no choice */
+    uint8_t *is_open;               /* 1 = hardly anything encloses it, and nothing is behind */
+    lost_depth_open *open;          /* of a cell */
     uint8_t *cells;                 /* of 8 x 8 pixels: 1 = a picture's window needs it */
     float *body_near; /* of a cell: no body is nearer; EDGE_MATTE_FAR = none is there */
     float *nearest;   /* of a row of cells: least depth that was settled */

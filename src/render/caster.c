@@ -19,7 +19,7 @@ static rlf_vec3 half_of_hull(const rlf_hull *hull)
 }
 
 /* Inner box and rounding. A box is rounded a little so that its shadow's edge can be soft; a
- * cylinder's and a hull's box more, so as to fill no corners that are not there. */
+ * cylinder's more, so as to fill no corners that are not there. */
 static void set_shape(const rlf_shape *shape, caster *out)
 {
     double r = shape->radius;
@@ -39,10 +39,7 @@ static void set_shape(const rlf_shape *shape, caster *out)
         half = rlf_vec3_make(r, 0.5 * shape->height, r);
         share = 0.6;
         break;
-    case RLF_SHAPE_HULL:
-        half = half_of_hull(shape->hull);
-        share = 0.6;
-        break;
+    case RLF_SHAPE_HULL: half = half_of_hull(shape->hull); break;
     }
     double least = rlf_min(half.x, rlf_min(half.y, half.z));
     double round = share * least;
@@ -56,6 +53,42 @@ static void set_shape(const rlf_shape *shape, caster *out)
     out->near_m = (float)(CASTER_NEAR * size);
     out->length_m = (float)(CASTER_LENGTH * size);
     out->radius = (float)rlf_shape_radius(shape);
+}
+
+/* Index of the vertex that is farthest along a direction. */
+static int32_t farthest(const rlf_hull *hull, rlf_vec3 along)
+{
+    int32_t best = 0;
+    for (int32_t i = 1; i < hull->vertex_count; i++) {
+        const rlf_vec3 step = rlf_sub(hull->vertices[i], hull->vertices[best]);
+        best = rlf_dot(step, along) > 0.0 ? i : best;
+    }
+    return best;
+}
+
+/* The outline of a hull across the light, through vertices that are farthest in CASTER_EDGES
+ * directions; l is to the light, body frame. */
+static void set_outline(const rlf_hull *hull, const rlf_mat3 *R, rlf_vec3 l, caster *out)
+{
+    const rlf_vec3 aside = l.x * l.x < 0.5 ? rlf_vec3_make(1, 0, 0) : rlf_vec3_make(0, 1, 0);
+    const rlf_vec3 across = rlf_normalize(rlf_cross(aside, l));
+    const rlf_vec3 down = rlf_cross(l, across);
+    int32_t corner[CASTER_EDGES + 1];
+    for (int k = 0; k <= CASTER_EDGES; k++) {
+        const double turn = 2.0 * RLF_PI * (k % CASTER_EDGES) / CASTER_EDGES;
+        corner[k] = farthest(hull, rlf_mad(rlf_scale(across, rlf_cos(turn)), down, rlf_sin(turn)));
+    }
+    for (int k = 0; k < CASTER_EDGES; k++) {
+        const rlf_vec3 from = hull->vertices[corner[k]];
+        rlf_vec3 n = rlf_cross(rlf_sub(hull->vertices[corner[k + 1]], from), l);
+        const double length = rlf_length(n);
+        if (length > 1e-6) { /* else they are before each other */
+            float *edge = out->edge[out->edge_count++];
+            n = rlf_scale(n, 1.0 / length);
+            caster_to_floats(rlf_mat3_mul_vec(R, n), edge);
+            edge[3] = (float)rlf_dot(n, from);
+        }
+    }
 }
 
 bool caster_make(const rlf_body_state *body, const rlf_pose *T_picture_world, rlf_vec3 to_light,
@@ -73,6 +106,10 @@ bool caster_make(const rlf_body_state *body, const rlf_pose *T_picture_world, rl
         out->to_light[i] = (float)(R.m[0][i] * l.x + R.m[1][i] * l.y + R.m[2][i] * l.z);
     }
     set_shape(&body->shape, out);
+    if (out->crease == 0.0f && body->shape.hull != NULL && body->shape.hull->vertex_count > 0) {
+        const float *to = out->to_light;
+        set_outline(body->shape.hull, &R, caster_from_floats(to), out);
+    }
     const float *half = out->half;
     float corner = sqrtf(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
     out->reach = REACH_MARGIN * (corner + out->round);
@@ -340,10 +377,33 @@ RLF_KERNEL_PART bool is_behind(const caster *c, const float to_light[3],
     return any != 0;
 }
 
+/* How far points are beyond a hull's outline, at least: far within it for other bodies. */
+RLF_KERNEL_PART void find_beyond(const caster *c, const float *restrict ray_x,
+                                 const float *restrict ray_y, const float *restrict z,
+                                 float *restrict out)
+{
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < CASTER_LANES; i++) {
+        out[i] = -1e6f;
+    }
+    for (int32_t k = 0; k < c->edge_count; k++) {
+        const float *e = c->edge[k];
+        const float ex = e[0];
+        const float ey = e[1];
+        const float ez = e[2];
+        const float least = e[3] + ex * c->center[0] + ey * c->center[1] + ez * c->center[2];
+        RLF_KERNEL_WHOLE
+        for (int32_t i = 0; i < CASTER_LANES; i++) {
+            const float beyond = (ex * ray_x[i] + ey * ray_y[i] + ez) * z[i] - least;
+            out[i] = beyond > out[i] ? beyond : out[i];
+        }
+    }
+}
+
 /* The distance to the rounded box darkens what is near. */
 RLF_KERNEL_PART void take_ambient(const caster caster_here, const float *restrict ray_x,
-                                  const float *restrict ray_y, const float *restrict z, float share,
-                                  float *restrict left)
+                                  const float *restrict ray_y, const float *restrict z,
+                                  const float *restrict beyond, float share, float *restrict left)
 {
     const caster c = caster_here;
     const float per_near = 1.0f / c.near_m;
@@ -354,6 +414,7 @@ RLF_KERNEL_PART void take_ambient(const caster caster_here, const float *restric
         float y = s.q[1] - limit(s.q[1], -c.half[1], c.half[1]);
         float w = s.q[2] - limit(s.q[2], -c.half[2], c.half[2]);
         float gap = sqrtf(x * x + y * y + w * w) - c.round;
+        gap = beyond[i] > gap ? beyond[i] : gap;
         float close = 1.0f - (gap > 0.0f ? gap : 0.0f) * per_near;
         close = close > 0.0f ? close : 0.0f;
         left[i] *= 1.0f - share * close * close * creased(&c, facing_of(&s, z[i]), close, z[i]);
@@ -363,8 +424,8 @@ RLF_KERNEL_PART void take_ambient(const caster caster_here, const float *restric
 /* The ray to the light passes the inner box at a least distance, found by projecting from the one
  * to the other and back: both are convex. */
 RLF_KERNEL_PART void take_direct(const caster caster_here, const float *restrict ray_x,
-                                 const float *restrict ray_y, const float *restrict z, float share,
-                                 float *restrict left)
+                                 const float *restrict ray_y, const float *restrict z,
+                                 const float *restrict beyond, float share, float *restrict left)
 {
     const caster c = caster_here;
     const float lx = c.to_light[0];
@@ -388,9 +449,10 @@ RLF_KERNEL_PART void take_direct(const caster caster_here, const float *restrict
         x -= limit(x, -c.half[0], c.half[0]);
         y -= limit(y, -c.half[1], c.half[1]);
         w -= limit(w, -c.half[2], c.half[2]);
-        float pass = sqrtf(x * x + y * y + w * w);
+        float pass = sqrtf(x * x + y * y + w * w) - c.round;
+        pass = beyond[i] > pass ? beyond[i] : pass;
         float width = c.penumbra + (float)CASTER_SPREAD * t;
-        float hidden = limit(0.5f + (c.round - pass) / width, 0.0f, 1.0f);
+        float hidden = limit(0.5f - pass / width, 0.0f, 1.0f);
         float fade = 1.0f - t * per_length;
         fade = fade > 0.0f ? fade : 0.0f;
         hidden *= fade * limit(t * per_penumbra, 0.0f, 1.0f); /* none before the body */
@@ -402,9 +464,11 @@ RLF_KERNEL void caster_take_ambient(const caster *c, const caster_points *p, flo
                                     float *left)
 {
     const float reach = c->reach + c->near_m;
+    float beyond[CASTER_LANES];
     for (int32_t i = 0; i < p->count; i += CASTER_LANES) {
         if (is_near(c->center, p->x + i, p->y + i, p->z + i, reach)) {
-            take_ambient(*c, p->x + i, p->y + i, p->z + i, share, left + i);
+            find_beyond(c, p->x + i, p->y + i, p->z + i, beyond);
+            take_ambient(*c, p->x + i, p->y + i, p->z + i, beyond, share, left + i);
         }
     }
 }
@@ -412,9 +476,11 @@ RLF_KERNEL void caster_take_ambient(const caster *c, const caster_points *p, flo
 RLF_KERNEL void caster_take_direct(const caster *c, const caster_points *p, float share,
                                    float *left)
 {
+    float beyond[CASTER_LANES];
     for (int32_t i = 0; i < p->count; i += CASTER_LANES) {
         if (is_behind(c, c->light, p->x + i, p->y + i, p->z + i, c->reach)) {
-            take_direct(*c, p->x + i, p->y + i, p->z + i, share, left + i);
+            find_beyond(c, p->x + i, p->y + i, p->z + i, beyond);
+            take_direct(*c, p->x + i, p->y + i, p->z + i, beyond, share, left + i);
         }
     }
 }

@@ -1,5 +1,6 @@
 /* Bodies as what keeps light away: a box with round edges, which is a ball or a stick when the box
- * is a point or a line. Shared by both renderers. */
+ * is a point or a line; of a hull, so much of that as its outline across the light leaves. Shared
+ * by both renderers. */
 #ifndef RLF_RENDER_CASTER_H
 #define RLF_RENDER_CASTER_H
 
@@ -21,6 +22,7 @@
 
 enum {
     CASTER_BODIES = 3, /* most bodies that shade another one */
+    CASTER_EDGES = 16, /* most of a hull's outline */
     CASTER_LANES = 16  /* points that are worked on at once */
 };
 
@@ -37,6 +39,9 @@ typedef struct caster {
     float length_m;    /* the shadow ends here, metres behind the body */
     float radius;      /* of the bounding sphere */
     float reach;       /* of a ball about the rounded box */
+    /* Of a hull: beyond edge k by edge[k] . (p - center) - edge[k][3] metres. */
+    float edge[CASTER_EDGES][4];
+    int32_t edge_count;
 } caster;
 
 /* False (and near_m 0) when the body casts nothing: not finite, or around the camera. to_light:

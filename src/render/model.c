@@ -95,13 +95,15 @@ static rlf_result check_parts(const rlf_model_def *def)
         const rlf_model_part *part = &def->parts[i];
         if (part->first_triangle != next || part->triangle_count < 0 ||
             part->triangle_count > def->triangle_count - next || part->texture < -1 ||
-            part->texture >= def->image_count || !is_within(part->color, 3, 1.0f) ||
+            part->texture >= def->image_count || part->surface_texture < 0 ||
+            part->surface_texture > def->image_count || part->normal_texture < 0 ||
+            part->normal_texture > def->image_count || !is_within(part->color, 3, 1.0f) ||
             part->color[0] < 0.0f || part->color[1] < 0.0f || part->color[2] < 0.0f ||
             !(part->metallic >= 0.0f && part->metallic <= 1.0f) ||
             !(part->gloss >= 0.0f && part->gloss <= 1.0f)) {
             return rlf_fail(RLF_ERROR_INVALID,
                             "%s: part %d: triangles must follow those of the part before, colours, "
-                            "metallic and gloss be 0 to 1, and the texture be there",
+                            "metallic and gloss be 0 to 1, and the textures be there",
                             def->name, (int)i);
         }
         next += part->triangle_count;
@@ -263,8 +265,8 @@ static rlf_model *build(const rlf_model_def *def)
         memcpy(parts, def->parts, (size_t)def->part_count * sizeof(*parts));
     } else {
         int32_t texture = def->image_count > 0 ? 0 : -1;
-        parts[0] =
-            (rlf_model_part){0, def->triangle_count, {1.0f, 1.0f, 1.0f}, texture, 0.0f, 0.0f};
+        parts[0] = (rlf_model_part){
+            .triangle_count = def->triangle_count, .color = {1.0f, 1.0f, 1.0f}, .texture = texture};
     }
     fill_textures(def, (uint8_t *)block + l.texels, textures);
     rlf_model *model = (rlf_model *)(void *)block;

@@ -38,6 +38,7 @@ typedef struct probe_material {
 #define PROBE_SMOOTH 0.45f /* a rougher surface mirrors no more than nine harmonics tell */
 #define PROBE_SHEEN 0.04f  /* of what it gets a smooth surface without metal mirrors, head on */
 #define PROBE_LAMP 0.06f   /* added to GGX's width: a lamp is no point */
+#define PROBE_TURN 0.18f   /* most that normals turning within a pixel add to GGX's squared width */
 
 /* Patches of what is real: places, normals, radiance and area. */
 typedef struct probe_room {

@@ -211,7 +211,7 @@ static void test_known(void **state)
     rlf_model_destroy(&ball);
 }
 
-/* Models with and without a texture, near and far, drawn again from what the GPU has kept. */
+/* Models with and without textures, near and far, drawn again from what the GPU has kept. */
 static void test_models(void **state)
 {
     (void)state;
@@ -219,6 +219,7 @@ static void test_models(void **state)
     add_room();
     rlf_model *board = sample_ball(8);
     rlf_model *plain = sample_ball(0);
+    rlf_model *worn = sample_worn_ball();
     rlf_quat q = rlf_quat_from_rotation_vector(rlf_vec3_make(0.6, 0.8, -0.3));
     const rlf_vec3 places[5] = {
         {-0.4, -0.2, 1.3}, {0.2, -0.2, 1.0}, {0.5, 0.1, 1.9}, {-0.3, 0.3, 1.5}, {0.35, 0.25, 1.0}};
@@ -226,7 +227,8 @@ static void test_models(void **state)
         const double radius = 0.1 + 0.03 * i;
         rlf_shape ball = {.type = RLF_SHAPE_SPHERE, .radius = radius};
         rlf_body_state *body = gl_scene_add(&scene, ball, places[i], q);
-        body->look = (rlf_look){i % 2 == 0 ? board : plain, radius, {0.01, 0.02, 0}};
+        body->look =
+            (rlf_look){i == 1 ? worn : (i % 2 == 0 ? board : plain), radius, {0.01, 0.02, 0}};
     }
     gl_scene_add(&scene, gl_scene_box(0.3, 0.3, 0.3), rlf_vec3_make(-0.1, 0.1, 1.7), q);
     for (int i = 0; i < 4; i++) {
@@ -240,6 +242,7 @@ static void test_models(void **state)
     }
     rlf_model_destroy(&board);
     rlf_model_destroy(&plain);
+    rlf_model_destroy(&worn);
 }
 
 static void test_depth_occlusion(void **state)

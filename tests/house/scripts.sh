@@ -12,13 +12,13 @@ for script in "$root"/script/* "$root"/.ci/run "$root"/tests/house/*.sh; do
         exit 1
     }
 done
-for name in bootstrap demo deb docs bare test bench portable peers report format lines silhouettes thresholds sentences figures web; do
+for name in bootstrap demo deb docs bare test bench portable peers report format lines silhouettes thresholds sentences figures web film; do
     "$root/script/$name" --help | grep -q '^usage: script/'"$name" || {
         echo "script/$name --help: no usage line" >&2
         exit 1
     }
 done
-for name in bootstrap deb bare bench portable docs peers report format lines silhouettes thresholds sentences figures web; do
+for name in bootstrap deb bare bench portable docs peers report format lines silhouettes thresholds sentences figures web film; do
     status=0
     "$root/script/$name" --no-such-option >/dev/null 2>&1 || status=$?
     if [ "$status" -ne 2 ]; then

@@ -104,6 +104,18 @@ expect_done bench --peer-clip clip.raw
 head -n 1 clip.raw | head -c 11 | grep -q "512 424 60 " || fail "bench --peer-clip: $(head -n 1 clip.raw)"
 rm -f clip.raw clip.raw.gt
 
+# Which picture looks real? A scene of its own folder, so that there is little to copy.
+mkdir scenes
+cat >scenes/ball.json <<'TEXT'
+{"bodies": [{"shape": "sphere", "radius": 0.2, "mass": 1, "position": [0.2, 0.3, 1.6], "release_time": 60}]}
+TEXT
+expect_error 2 "belong together" pairs --at 3
+expect_error 1 "no_such_clip" pairs pages --source no_such_clip --scene scenes/ball.json --at 3
+expect_error 1 "no picture of frame 7" pairs pages --source "synthetic:room?color=192x108&frames=4" --scene scenes/ball.json --at 3,7
+expect_done pairs pages --source "synthetic:room?color=192x108&frames=4" --scene scenes/ball.json --at 3
+grep -q "index.html: [3-5] pairs of" stdout.txt || fail "pairs: $(cat stdout.txt)"
+grep -q '"part": "shadow", "with": "0' pages/index.html || fail "pairs: index.html"
+
 # Half a measurement is none: no file, and an earlier one stays.
 echo "{}" >kept.json
 for command in "eval --scene room" "bench --frames 100000" "measure synthetic:room?frames=-1 --frames 100000"; do

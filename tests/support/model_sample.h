@@ -47,8 +47,9 @@ static inline rlf_model *sample_ball(int cells)
     static rlf_model_vertex vertices[SAMPLE_VERTICES];
     static int32_t triangles[6 * SAMPLE_SLICES * SAMPLE_STACKS];
     static uint8_t pixels[4 * SAMPLE_TEXTURE * SAMPLE_TEXTURE];
-    const rlf_model_part part = {
-        0, 2 * SAMPLE_SLICES * SAMPLE_STACKS, {1.0f, 0.8f, 0.6f}, -1, 0.0f, 0.0f};
+    const rlf_model_part part = {.triangle_count = 2 * SAMPLE_SLICES * SAMPLE_STACKS,
+                                 .color = {1.0f, 0.8f, 0.6f},
+                                 .texture = -1};
     rlf_image_rgba8 image = {pixels, SAMPLE_TEXTURE, SAMPLE_TEXTURE, 4 * SAMPLE_TEXTURE};
     rlf_model_def def = rlf_model_def_default();
     sample_fill(vertices, triangles, &def.triangle_count);
@@ -65,6 +66,45 @@ static inline rlf_model *sample_ball(int cells)
     def.image_count = cells > 0 ? 1 : 0;
     def.parts = cells > 0 ? NULL : &part;
     def.part_count = cells > 0 ? 0 : 1;
+    rlf_model *model = NULL;
+    return rlf_model_create(&def, &model) == RLF_OK ? model : NULL;
+}
+
+/* The same of worn metal with waves in it: textures of normals, metal and roughness. */
+static inline rlf_model *sample_worn_ball(void)
+{
+    static rlf_model_vertex vertices[SAMPLE_VERTICES];
+    static int32_t triangles[6 * SAMPLE_SLICES * SAMPLE_STACKS];
+    static uint8_t pixels[2][4 * SAMPLE_TEXTURE * SAMPLE_TEXTURE];
+    const rlf_model_part part = {.triangle_count = 2 * SAMPLE_SLICES * SAMPLE_STACKS,
+                                 .color = {1.0f, 0.8f, 0.6f},
+                                 .texture = -1,
+                                 .metallic = 1.0f,
+                                 .surface_texture = 1,
+                                 .normal_texture = 2};
+    rlf_image_rgba8 images[2];
+    rlf_model_def def = rlf_model_def_default();
+    sample_fill(vertices, triangles, &def.triangle_count);
+    for (int i = 0; i < SAMPLE_TEXTURE * SAMPLE_TEXTURE; i++) {
+        const double x = 6.0 * RLF_PI * (i % SAMPLE_TEXTURE) / SAMPLE_TEXTURE;
+        const double y = 6.0 * RLF_PI * (i / SAMPLE_TEXTURE) / SAMPLE_TEXTURE;
+        pixels[0][4 * i + 1] = (uint8_t)(140.0 + 100.0 * rlf_sin(x));
+        pixels[0][4 * i + 2] = (uint8_t)(128.0 + 120.0 * rlf_sin(y));
+        pixels[1][4 * i] = (uint8_t)(127.5 + 60.0 * rlf_sin(x));
+        pixels[1][4 * i + 1] = (uint8_t)(127.5 + 60.0 * rlf_cos(y));
+        pixels[1][4 * i + 2] = 230;
+    }
+    for (int i = 0; i < 2; i++) {
+        images[i] =
+            (rlf_image_rgba8){pixels[i], SAMPLE_TEXTURE, SAMPLE_TEXTURE, 4 * SAMPLE_TEXTURE};
+    }
+    def.vertices = vertices;
+    def.vertex_count = SAMPLE_VERTICES;
+    def.triangles = triangles;
+    def.images = images;
+    def.image_count = 2;
+    def.parts = &part;
+    def.part_count = 1;
     rlf_model *model = NULL;
     return rlf_model_create(&def, &model) == RLF_OK ? model : NULL;
 }

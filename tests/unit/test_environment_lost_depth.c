@@ -203,6 +203,28 @@ static void a_void_is_not_filled(void **state)
     assert_true(update() < 40);
 }
 
+/* A void whose colours come and go about those of the thing: there is no depth in it here and not
+ * there. */
+static void a_void_of_like_colours_has_no_specks(void **state)
+{
+    (void)state;
+    int32_t changes = 0;
+    sense(0);
+    for (int32_t i = 0; i < PIXELS; i++) {
+        if (!is_disc(i, 30.0)) {
+            lose(i);
+            const int32_t off = noise(2) < 1 ? 40 : 0;
+            set_color(i, 60 + off, 80 + off, 140 + off);
+        }
+    }
+    update();
+    for (int32_t i = 0; i + 1 < PIXELS; i++) {
+        const bool is_void = !is_disc(i, 34.0) && i % WIDTH + 1 < WIDTH;
+        changes += is_void && (s.settled[i] > 0.0f) != (s.settled[i + 1] > 0.0f) ? 1 : 0;
+    }
+    assert_true(changes < 20);
+}
+
 static float shown_depth(int32_t i)
 {
     return s.edges.cover.data[i] > 127 ? s.edges.near_z.data[i] : s.edges.far_z.data[i];
@@ -244,9 +266,13 @@ int main(void)
 {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
-        TEST(a_hole_in_a_thing_is_the_thing), TEST(colours_part_a_band_without_depth),
-        TEST(a_thing_goes_on_into_the_rim),   TEST(a_plane_goes_on_into_the_rim),
-        TEST(a_void_is_not_filled),           TEST(nothing_flickers_while_nothing_moves),
+        TEST(a_hole_in_a_thing_is_the_thing),
+        TEST(colours_part_a_band_without_depth),
+        TEST(a_thing_goes_on_into_the_rim),
+        TEST(a_plane_goes_on_into_the_rim),
+        TEST(a_void_is_not_filled),
+        TEST(a_void_of_like_colours_has_no_specks),
+        TEST(nothing_flickers_while_nothing_moves),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

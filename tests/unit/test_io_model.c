@@ -144,6 +144,28 @@ static void texture_and_color_are_read(void **state)
     rlf_model_destroy(&model);
 }
 
+static void metal_roughness_and_normals_are_read(void **state)
+{
+    (void)state;
+    write_paint(16, 16);
+    model_options o = model_textured;
+    o.material =
+        "{\"normalTexture\":{\"index\":0},\"pbrMetallicRoughness\":{\"metallicFactor\":0.5,"
+        "\"metallicRoughnessTexture\":{\"index\":0}}}";
+    rlf_model *model = load(&o);
+    const rlf_model_part *part = &model->parts[0];
+    assert_int_equal(model->texture_count, 1);
+    assert_true(part->texture == -1 && part->surface_texture == 1 && part->normal_texture == 1);
+    assert_true(part->metallic == 0.5f && part->gloss == 0.0f);
+    assert_true(model->vertices[2].uv[0] == 1.0f);
+    rlf_model_destroy(&model);
+    remove(test_path("paint.png")); /* a surface that cannot be had is taken for paint */
+    model = load(&o);
+    part = &model->parts[0];
+    assert_true(part->surface_texture == 0 && part->metallic == 0.0f && part->gloss == 0.5f);
+    rlf_model_destroy(&model);
+}
+
 static void two_sided_faces_are_there_twice(void **state)
 {
     (void)state;
@@ -486,6 +508,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(gltf_stands_upright, set_up, test_folder_remove),
         cmocka_unit_test_setup_teardown(nodes_place_meshes, set_up, test_folder_remove),
         cmocka_unit_test_setup_teardown(texture_and_color_are_read, set_up, test_folder_remove),
+        cmocka_unit_test_setup_teardown(metal_roughness_and_normals_are_read, set_up,
+                                        test_folder_remove),
         cmocka_unit_test_setup_teardown(two_sided_faces_are_there_twice, set_up,
                                         test_folder_remove),
         cmocka_unit_test_setup_teardown(obj_is_taken_as_it_is, set_up, test_folder_remove),

@@ -96,6 +96,29 @@ static void a_box_has_corners(void **state)
     assert_true(ambient > 0.3f && ambient < 1.0f); /* 10 cm from its side */
 }
 
+/* The shadow of an octahedron is what is seen of it from the light, not of a box about it, and so
+ * is the light around that it takes. */
+static void a_hull_has_an_outline(void **state)
+{
+    (void)state;
+    static const rlf_vec3 tips[6] = {{-0.2, 0, 0}, {0.2, 0, 0},  {0, -0.2, 0},
+                                     {0, 0.2, 0},  {0, 0, -0.2}, {0, 0, 0.2}};
+    const rlf_hull hull = {.vertices = tips, .vertex_count = 6};
+    const rlf_shape shape = {.type = RLF_SHAPE_HULL, .hull = &hull};
+    const rlf_pose T = {{0, 0, 2.0}, rlf_quat_from_rotation_vector(rlf_vec3_make(0, 0.3, 0))};
+    const rlf_vec3 to_light = {0, -1, 0};
+    const caster octahedron = make(shape, T, to_light);
+    const caster box = make(scene_box(0.4), T, to_light);
+    assert_int_equal(octahedron.edge_count, 4);
+    const rlf_vec3 inside = {0.07, 0.22, 0.07}, corner = {0.15, 0.22, 0.15};
+    float ambient, direct, of_box, unused;
+    lights_at(&octahedron, rlf_transform(&T, inside), &ambient, &direct);
+    assert_true(direct < 0.2f && ambient < 0.2f);
+    lights_at(&octahedron, rlf_transform(&T, corner), &ambient, &direct);
+    lights_at(&box, rlf_transform(&T, corner), &of_box, &unused);
+    assert_true(direct == 1.0f && ambient > of_box + 0.2f);
+}
+
 /* Random bodies and points: wherever light is lost, the bounds must have said so. */
 static void bounds_leave_nothing_out(void **state)
 {
@@ -190,8 +213,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shadow_lies_behind_the_body), cmocka_unit_test(a_box_has_corners),
-        cmocka_unit_test(bounds_leave_nothing_out),    cmocka_unit_test(bodies_shade_each_other),
-        cmocka_unit_test(nearest_bodies_are_chosen),
+        cmocka_unit_test(a_hull_has_an_outline),       cmocka_unit_test(bounds_leave_nothing_out),
+        cmocka_unit_test(bodies_shade_each_other),     cmocka_unit_test(nearest_bodies_are_chosen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

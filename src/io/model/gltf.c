@@ -180,7 +180,35 @@ static float json_factor(const json_t *pbr, const char *key)
     return (float)rlf_clamp(value, 0.0, 1.0);
 }
 
-/* Colour and texture of a material; `out_transform` is of texture coordinates. */
+/* The picture that a material's texture names; -1 = none, or one that cannot be had. */
+static rlf_result read_texture(gltf *g, const json_t *texture, int32_t *out)
+{
+    const json_t *image =
+        gltf_named(g, gltf_named(g, texture, "index", "textures"), "source", "images");
+    *out = -1;
+    return image != NULL ? find_texture(g, image, out) : RLF_OK;
+}
+
+/* Metal, roughness and normals. */
+static rlf_result read_surface(gltf *g, const json_t *material, rlf_model_part *out)
+{
+    const json_t *pbr = json_object_get(material, "pbrMetallicRoughness");
+    const json_t *texture = json_object_get(pbr, "metallicRoughnessTexture");
+    int32_t normals = -1, surface = -1;
+    rlf_result result = read_texture(g, json_object_get(material, "normalTexture"), &normals);
+    result = result == RLF_OK ? read_texture(g, texture, &surface) : result;
+    out->normal_texture = normals + 1;
+    out->surface_texture = surface + 1;
+    out->metallic = json_factor(pbr, "metallicFactor");
+    out->gloss = 1.0f - json_factor(pbr, "roughnessFactor");
+    if (pbr == NULL || (texture != NULL && surface < 0)) {
+        out->metallic = 0.0f; /* painted, as most things are */
+        out->gloss = 0.5f * (1.0f + out->gloss);
+    }
+    return result;
+}
+
+/* What is read of a material; `out_transform` is of texture coordinates. */
 static rlf_result read_material(gltf *g, const json_t *material, rlf_model_part *out,
                                 double out_transform[2][3])
 {
@@ -194,16 +222,12 @@ static rlf_result read_material(gltf *g, const json_t *material, rlf_model_part 
     for (int i = 0; i < 3; i++) {
         out->color[i] = srgb_of_linear(color[i]);
     }
-    out->metallic = json_factor(pbr, "metallicFactor");
-    out->gloss = 1.0f - json_factor(pbr, "roughnessFactor");
-    if (pbr == NULL || json_object_get(pbr, "metallicRoughnessTexture") != NULL) {
-        out->metallic = 0.0f; /* painted, as most things are */
-        out->gloss = 0.5f * (1.0f + out->gloss);
-    }
+    rlf_result result = read_texture(g, texture, &out->texture);
+    result = result == RLF_OK ? read_surface(g, material, out) : result;
+    texture = texture != NULL ? texture : json_object_get(pbr, "metallicRoughnessTexture");
+    texture = texture != NULL ? texture : json_object_get(material, "normalTexture");
     read_transform(texture, out_transform);
-    const json_t *image =
-        gltf_named(g, gltf_named(g, texture, "index", "textures"), "source", "images");
-    return image != NULL ? find_texture(g, image, &out->texture) : RLF_OK;
+    return result;
 }
 
 /* ---- primitives ----------------------------------------------------------------------------- */
@@ -433,7 +457,9 @@ static rlf_result add_part(const scene *s, int64_t index)
         result = is_read ? RLF_OK : read_material(g, material, &part, transform);
         is_read = true;
         if (result == RLF_OK) {
-            result = add_instance(g, &s->instances[i], is_two_sided, part.texture >= 0,
+            const bool has_textures =
+                part.texture >= 0 || part.surface_texture > 0 || part.normal_texture > 0;
+            result = add_instance(g, &s->instances[i], is_two_sided, has_textures,
                                   (const double(*)[3])transform);
         }
     }

@@ -17,8 +17,10 @@ enum {
     UNIT_FAR = 4,
     UNIT_COVER = 5,
     UNIT_SHADE = 6,
-    UNIT_SKIN = 7,
-    UNIT_PROBES = 8
+    UNIT_PROBES = 7,
+    UNIT_SKIN = 8,
+    UNIT_SURFACE = UNIT_SKIN + GL_MODELS_SURFACE,
+    UNIT_NORMALS = UNIT_SKIN + GL_MODELS_NORMALS
 };
 
 /* Values of u_occlusion. */
@@ -67,7 +69,23 @@ static const char body_fragment[] =
     "uniform float u_level;\n"
     "uniform sampler2D u_skin;\n"
     "uniform bool u_has_skin;\n"
+    "uniform sampler2D u_surface;\n"
+    "uniform sampler2D u_normals;\n"
+    "uniform bool u_has_normals;\n"
     "out vec4 o_color;\n"
+    /* where texture coordinates grow on the surface, as scene_model.c has it */
+    "vec3 bent(vec3 n, vec3 p)\n"
+    "{\n"
+    "    vec3 a = dFdx(p), b = dFdy(p), g = cross(a, b);\n"
+    "    vec3 by_a = cross(b, g), by_b = cross(g, a);\n"
+    "    vec2 uv_a = dFdx(v_uv), uv_b = dFdy(v_uv);\n"
+    "    vec3 across = by_a * uv_a.x + by_b * uv_b.x;\n"
+    "    vec3 down = by_a * uv_a.y + by_b * uv_b.y;\n"
+    "    float most = max(dot(across, across), dot(down, down));\n"
+    "    vec3 m = 2.0 * texture(u_normals, v_uv).rgb - 1.0;\n"
+    "    vec3 along = most > 0.0 ? (across * m.x - down * m.y) * inversesqrt(most) : vec3(0.0);\n"
+    "    return normalize(n * m.z + along);\n"
+    "}\n"
     "void main()\n"
     "{\n"
     "    vec3 normal = normalize(v_normal);\n"
@@ -82,7 +100,18 @@ static const char body_fragment[] =
     "    vec3 uv_layer = vec3(clamp(v_uv, 0.0, 1.0), u_layer);\n"
     "    vec3 pattern = u_has_skin ? texture(u_skin, v_uv).rgb\n"
     "                              : textureLod(u_textures, uv_layer, u_level).rgb;\n"
-    "    vec3 color = sent(u_color * pattern * pattern, u_picture_camera * normal,\n"
+    "    vec3 seen = u_picture_camera * normal;\n"
+    "    vec3 by_x = dFdx(normal), by_y = dFdy(normal);\n" /* as material_of in shade.c */
+    "    float turn = min(0.25 * (dot(by_x, by_x) + dot(by_y, by_y)), 0.18);\n"
+    "    material = u_material;\n"
+    "    if (u_has_skin) {\n"
+    "        material.y = turn > 1e-3 ? sqrt(sqrt(pow(material.y, 4.0) + turn)) : material.y;\n"
+    "        material *= texture(u_surface, v_uv).bg;\n"
+    "    }\n"
+    "    if (u_has_normals) {\n"
+    "        seen = bent(seen, z * vec3(ray, 1.0));\n"
+    "    }\n"
+    "    vec3 color = sent(u_color * pattern * pattern, seen,\n"
     "        -(u_picture_camera * u_light), -normalize(vec3(ray, 1.0)), left);\n"
     "    float shown = 1.0;\n"
     "    if (u_occlusion == 1) {\n"
@@ -106,6 +135,7 @@ static void create_program_uniforms(gl_bodies *bodies)
     bodies->uniforms.layer = glGetUniformLocation(p, "u_layer");
     bodies->uniforms.level = glGetUniformLocation(p, "u_level");
     bodies->uniforms.has_skin = glGetUniformLocation(p, "u_has_skin");
+    bodies->uniforms.has_normals = glGetUniformLocation(p, "u_has_normals");
     bodies->uniforms.occlusion = glGetUniformLocation(p, "u_occlusion");
     bodies->uniforms.noise = glGetUniformLocation(p, "u_noise");
     bodies->uniforms.intrinsics = glGetUniformLocation(p, "u_intrinsics");
@@ -128,6 +158,8 @@ static void create_program_uniforms(gl_bodies *bodies)
     glUniform1i(glGetUniformLocation(p, "u_cover"), UNIT_COVER);
     glUniform1i(glGetUniformLocation(p, "u_shade_maps"), UNIT_SHADE);
     glUniform1i(glGetUniformLocation(p, "u_skin"), UNIT_SKIN);
+    glUniform1i(glGetUniformLocation(p, "u_surface"), UNIT_SURFACE);
+    glUniform1i(glGetUniformLocation(p, "u_normals"), UNIT_NORMALS);
     glUniform1i(glGetUniformLocation(p, "u_probe_maps"), UNIT_PROBES);
     glUniform2f(glGetUniformLocation(p, "u_body_shares"), (GLfloat)BODY_AMBIENT_SHARE,
                 (GLfloat)BODY_DIRECT_SHARE);
@@ -330,6 +362,7 @@ static void set_shape(const gl_bodies *bodies, const gl_bodies_pass *pass,
     set_color(bodies, body, white);
     gl_probes_set_material(&bodies->uniforms.probe, body_material_of(body->shape.type));
     glUniform1i(bodies->uniforms.has_skin, 0);
+    glUniform1i(bodies->uniforms.has_normals, 0);
     glUniform1f(bodies->uniforms.shift, (GLfloat)(scale.half_height / scale.scale.y));
     glUniform1f(bodies->uniforms.layer, (GLfloat)body_texture_kind_of(body->shape.type));
     glUniform1f(bodies->uniforms.level, (GLfloat)body_texture_level_of(&body->shape, z, focal));
@@ -349,6 +382,7 @@ static void draw_model(const gl_bodies *bodies, const gl_bodies_pass *pass,
         set_color(bodies, body, part->color);
         gl_probes_set_material(&bodies->uniforms.probe,
                                (probe_material){part->metallic, 1.0f - part->gloss});
+        glUniform1i(bodies->uniforms.has_normals, part->normal_texture > 0 ? 1 : 0);
         gl_models_draw_part(bodies->models, item, part);
     }
 }

@@ -25,9 +25,12 @@ typedef struct gl_model {
 typedef struct gl_models {
     gl_model items[GL_MODELS_MAX];
     uint64_t uses; /* so far */
-    int unit;      /* where textures are bound */
+    int unit;      /* where textures of colour are bound, and behind it: */
     GLuint white;  /* the texture of parts that have none */
 } gl_models;
+
+/* Units of textures, from the first one on. */
+enum { GL_MODELS_COLOR, GL_MODELS_SURFACE, GL_MODELS_NORMALS };
 
 /* Textures are bound to `unit`, when they are uploaded and when they are drawn. */
 rlf_result gl_models_create(int unit, gl_models **out);
@@ -36,7 +39,7 @@ void gl_models_destroy(gl_models **models);
 /* The model's objects, uploaded if they are not there. Binds its vertex array, whose attributes 0,
  * 1 and 2 are position, normal and texture coordinates. */
 const gl_model *gl_models_bind(gl_models *models, const rlf_model *model);
-/* Draws a part of the model that is bound, with its texture. */
+/* Draws a part of the model that is bound, with its textures. */
 void gl_models_draw_part(const gl_models *models, const gl_model *item, const rlf_model_part *part);
 
 /* ---- All bodies. */
@@ -45,7 +48,7 @@ typedef struct gl_bodies {
     GLuint program;
     struct {
         GLint picture_body, camera_body, picture_camera, shift, color, light, layer, level,
-            has_skin, occlusion, noise, intrinsics, shader_count;
+            has_skin, has_normals, occlusion, noise, intrinsics, shader_count;
         gl_probe_uniforms probe;
         gl_caster_uniforms shaders[CASTER_BODIES];
         gl_shade_uniforms shade;

@@ -11,7 +11,7 @@
 /* ---- gl_caster.c: bodies that take light away, in shaders: the same formulas as caster.c. */
 
 typedef struct gl_caster_uniforms {
-    GLint center, to_body, half_size, to_light, numbers, crease;
+    GLint center, to_body, half_size, to_light, numbers, crease, edge_count, edges;
 } gl_caster_uniforms;
 
 /* GLSL: `struct caster` and `vec2 light_lost(caster c, vec2 ray, float z)`: shares of the light
@@ -77,7 +77,7 @@ void gl_obscurance_set(const gl_obscurance_uniforms *uniforms, const gl_obscuran
 /* ---- gl_probe.c: light by place, and gloss: see probe.h. */
 
 /* GLSL: `vec3 sent(vec3 color, vec3 n, vec3 to_lamp, vec3 to_eye, vec2 left)`: the codes of what a
- * surface of a linear colour sends. */
+ * surface of a linear colour and of `material` sends. */
 extern const char gl_probe_glsl[];
 
 /* The probes of a picture's bodies, and their maps. */

@@ -113,11 +113,18 @@ const gl_model *gl_models_bind(gl_models *models, const rlf_model *model)
     return found;
 }
 
+/* Number 0 = none. */
+static void bind_texture(const gl_models *models, const gl_model *item, int unit, int32_t number)
+{
+    glActiveTexture(GL_TEXTURE0 + (GLenum)(models->unit + unit));
+    glBindTexture(GL_TEXTURE_2D, number > 0 ? item->textures[number - 1] : models->white);
+}
+
 void gl_models_draw_part(const gl_models *models, const gl_model *item, const rlf_model_part *part)
 {
     const uintptr_t first = 3 * sizeof(int32_t) * (uintptr_t)part->first_triangle;
-    glActiveTexture(GL_TEXTURE0 + (GLenum)models->unit);
-    glBindTexture(GL_TEXTURE_2D,
-                  part->texture >= 0 ? item->textures[part->texture] : models->white);
+    bind_texture(models, item, GL_MODELS_COLOR, part->texture + 1);
+    bind_texture(models, item, GL_MODELS_SURFACE, part->surface_texture);
+    bind_texture(models, item, GL_MODELS_NORMALS, part->normal_texture);
     glDrawElements(GL_TRIANGLES, 3 * part->triangle_count, GL_UNSIGNED_INT, (const void *)first);
 }

@@ -8,6 +8,7 @@ const char gl_probe_glsl[] =
     "uniform sampler2D u_probe_maps;\n"
     "uniform int u_probe_row;\n"
     "uniform vec2 u_material;\n" /* metallic, roughness */
+    "vec2 material;\n"           /* the pixel's: set it first */
     "const int probe_row = 18;\n"
     "vec3 harmonics(vec3 t[9], vec3 d)\n"
     "{\n"
@@ -23,7 +24,7 @@ const char gl_probe_glsl[] =
     "}\n"
     "vec3 mirrored(vec3 r)\n"
     "{\n"
-    "    if (u_material.y >= 0.45) {\n"
+    "    if (material.y >= 0.45) {\n"
     "        return harmonics(u_rough, r);\n"
     "    }\n"
     "    vec2 at = r.xy / (abs(r.x) + abs(r.y) + abs(r.z) + 1e-12);\n"
@@ -39,7 +40,7 @@ const char gl_probe_glsl[] =
     /* n, to_lamp and to_eye are unit; left: shares of the light around and of the lamp's */
     "vec3 sent(vec3 color, vec3 n, vec3 to_lamp, vec3 to_eye, vec2 left)\n"
     "{\n"
-    "    float rough = u_material.y;\n"
+    "    float rough = material.y;\n"
     "    float cosine = dot(n, to_eye);\n"
     "    float facing = clamp(dot(n, to_lamp), 0.0, 1.0);\n"
     "    vec3 h = to_lamp + to_eye;\n"
@@ -57,8 +58,8 @@ const char gl_probe_glsl[] =
     "    vec3 diffuse = left.x * harmonics(u_around, n) + lit * facing;\n"
     "    vec3 room = left.x * mirrored(2.0 * cosine * n - to_eye);\n"
     "    vec3 sheen = room * share.x + lit * lamp;\n"
-    "    vec3 times = mix(diffuse, sheen, u_material.x);\n"
-    "    vec3 plus = 0.04 * (1.0 - u_material.x) * sheen + room * share.y;\n"
+    "    vec3 times = mix(diffuse, sheen, material.x);\n"
+    "    vec3 plus = 0.04 * (1.0 - material.x) * sheen + room * share.y;\n"
     "    return sqrt(min(color * times + plus, 1.0));\n"
     "}\n";
 

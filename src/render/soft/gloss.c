@@ -16,12 +16,8 @@ typedef struct lanes {
 } lanes;
 
 /* Unit normals, and the mirrored direction of the ray. */
-RLF_KERNEL_PART void place(const soft_stream *v, int32_t first, const float light[3], float rough,
-                           lanes *out)
+RLF_KERNEL_PART void place(const soft_stream *v, int32_t first, const float light[3], lanes *out)
 {
-    const float width = rough * rough + PROBE_LAMP;
-    const float width2 = width * width;
-    const float spread = 0.25f / (rough + 0.5f);
     const float lx = light[0];
     const float ly = light[1];
     const float lz = light[2];
@@ -49,6 +45,10 @@ RLF_KERNEL_PART void place(const soft_stream *v, int32_t first, const float ligh
         const float per_h = 1.0f / sqrtf(hx * hx + hy * hy + hz * hz + 1e-12f);
         const float nh = stream_clamp((x * hx + y * hy + z * hz) * per_h, 0.0f, 1.0f);
         const float lh = stream_clamp((lx * hx + ly * hy + lz * hz) * per_h, 0.1f, 1.0f);
+        const float rough = v->roughness[i];
+        const float width = rough * rough + PROBE_LAMP;
+        const float width2 = width * width;
+        const float spread = 0.25f / (rough + 0.5f);
         const float peak = nh * nh * (width2 - 1.0f) + 1.0f;
         out->n[0][k] = x;
         out->n[1][k] = y;
@@ -63,14 +63,15 @@ RLF_KERNEL_PART void place(const soft_stream *v, int32_t first, const float ligh
 }
 
 /* Karis's form of the split sum; (1 - cosine)^5 stands for his power of two. */
-RLF_KERNEL_PART void split(float rough, lanes *v)
+RLF_KERNEL_PART void split(const float *restrict roughness, lanes *v)
 {
-    const float rx = 1.0f - rough;
-    const float ry = 0.0425f - 0.0275f * rough;
-    const float rz = 1.04f - 0.572f * rough;
-    const float rw = 0.022f * rough - 0.04f;
     RLF_KERNEL_WHOLE
     for (int32_t k = 0; k < SOFT_LANES; k++) {
+        const float rough = roughness[k];
+        const float rx = 1.0f - rough;
+        const float ry = 0.0425f - 0.0275f * rough;
+        const float rz = 1.04f - 0.572f * rough;
+        const float rw = 0.022f * rough - 0.04f;
         const float away = 1.0f - v->to_eye[k];
         const float power = away * away * away * away * away;
         const float least = rx * rx < power ? rx * rx : power;
@@ -144,13 +145,13 @@ RLF_KERNEL_PART void look_up(const light_probe *probe, lanes *v)
 /* Colour's factor and what is added to that, of one channel. */
 RLF_KERNEL_PART void mix(const lanes *v, const float *restrict around,
                          const float *restrict mirrored, const float *restrict ambient,
-                         const float *restrict direct, float lamp, probe_material material,
+                         const float *restrict direct, float lamp, const float *restrict metallic,
                          float *restrict times, float *restrict plus)
 {
-    const float metal = material.metallic;
-    const float matt = 1.0f - metal;
     RLF_KERNEL_WHOLE
     for (int32_t k = 0; k < SOFT_LANES; k++) {
+        const float metal = metallic[k];
+        const float matt = 1.0f - metal;
         const float lit = lamp * direct[k];
         const float diffuse = ambient[k] * around[k] + lit * v->to_lamp[k];
         const float room = ambient[k] * mirrored[k];
@@ -160,24 +161,47 @@ RLF_KERNEL_PART void mix(const lanes *v, const float *restrict around,
     }
 }
 
-RLF_KERNEL void soft_light_lanes(const light_probe *probe, const float light[3],
-                                 probe_material material, soft_stream *v)
+/* How many lanes are smooth. */
+RLF_KERNEL_PART int32_t count_smooth(const float *restrict roughness)
+{
+    int32_t count = 0;
+    RLF_KERNEL_WHOLE
+    for (int32_t k = 0; k < SOFT_LANES; k++) {
+        count += roughness[k] < PROBE_SMOOTH ? 1 : 0;
+    }
+    return count;
+}
+
+/* What rough lanes mirror, of one channel. */
+RLF_KERNEL_PART void mirror_rough(const light_probe *probe, int c, const float *restrict roughness,
+                                  lanes *v)
+{
+    float sum[SOFT_LANES];
+    sum_terms(probe->rough, c, (const float(*)[SOFT_LANES])v->r, sum);
+    RLF_KERNEL_WHOLE
+    for (int32_t k = 0; k < SOFT_LANES; k++) {
+        v->mirrored[c][k] = roughness[k] < PROBE_SMOOTH ? v->mirrored[c][k] : sum[k];
+    }
+}
+
+RLF_KERNEL void soft_light_lanes(const light_probe *probe, const float light[3], soft_stream *v)
 {
     float around[SOFT_LANES];
     lanes here;
     for (int32_t first = 0; first < v->count; first += SOFT_LANES) {
-        place(v, first, light, material.roughness, &here);
-        split(material.roughness, &here);
-        if (material.roughness < PROBE_SMOOTH) {
+        const int32_t smooth = count_smooth(v->roughness + first);
+        place(v, first, light, &here);
+        split(v->roughness + first, &here);
+        if (smooth > 0) {
             look_up(probe, &here);
         }
         for (int c = 0; c < 3; c++) {
             sum_terms(probe->around, c, (const float(*)[SOFT_LANES])here.n, around);
-            if (material.roughness >= PROBE_SMOOTH) {
-                sum_terms(probe->rough, c, (const float(*)[SOFT_LANES])here.r, here.mirrored[c]);
+            if (smooth < SOFT_LANES) {
+                mirror_rough(probe, c, v->roughness + first, &here);
             }
             mix(&here, around, here.mirrored[c], v->ambient + first, v->direct + first,
-                probe->direct[c], material, v->times[c] + first, v->plus[c] + first);
+                probe->direct[c], v->metallic + first, v->times[c] + first, v->plus[c] + first);
         }
     }
 }

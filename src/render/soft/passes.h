@@ -76,10 +76,11 @@ void soft_shade_faces(const soft *s, const soft_ends *ends, int32_t count, const
 
 /* ---- skin.c: the colours of a model's texture. */
 
-/* Shares of red, green and blue that the skin's texture shows in SOFT_LANES pixels of row y from x
- * on, of which `count` count; z are their depths. */
-void soft_skin_colors(const soft_skin *skin, const soft_face *face, soft_lanes_at at,
-                      const float *z, float rgb[3][SOFT_LANES]);
+/* Shares of red, green and blue that one of the skin's textures shows in SOFT_LANES pixels of row y
+ * from x on, of which `count` count; z are their depths. */
+void soft_skin_colors(const soft_skin *skin, const rlf_model_texture *texture,
+                      const soft_face *face, soft_lanes_at at, const float *z,
+                      float rgb[3][SOFT_LANES]);
 
 /* ---- shadow.c: shadows of bodies on real surfaces. */
 

@@ -62,10 +62,33 @@ static bool is_turned_away(const soft *s, const soft_corner corners[3])
     return s->camera.distortion_model == RLF_DISTORTION_NONE && rlf_dot(n, corners[0].p) >= 0.0;
 }
 
+/* Where texture coordinates grow on the face, the longer one unit: Schueler 2006. */
+static void set_tangents(const soft_corner corners[3], soft_skin *out)
+{
+    const rlf_vec3 a = rlf_sub(corners[1].p, corners[0].p);
+    const rlf_vec3 b = rlf_sub(corners[2].p, corners[0].p);
+    const rlf_vec3 n = rlf_cross(a, b);
+    const rlf_vec3 by_a = rlf_cross(b, n);
+    const rlf_vec3 by_b = rlf_cross(n, a);
+    rlf_vec3 grow[2];
+    for (int k = 0; k < 2; k++) {
+        const double from = (double)corners[0].attribute[k];
+        grow[k] = rlf_mad(rlf_scale(by_a, (double)corners[1].attribute[k] - from), by_b,
+                          (double)corners[2].attribute[k] - from);
+    }
+    const double most = rlf_max(rlf_dot(grow[0], grow[0]), rlf_dot(grow[1], grow[1]));
+    const double scale = most > 0.0 ? 1.0 / sqrt(most) : 0.0;
+    caster_to_floats(rlf_scale(grow[0], scale), out->across);
+    caster_to_floats(rlf_scale(grow[1], -scale), out->up);
+}
+
 static void put_skin(soft_scene *scene, const soft_skin *part, const soft_corner corners[3])
 {
     soft_skin *skin = &scene->skins[scene->skin_count++];
     *skin = *part;
+    if (part->normals != NULL) {
+        set_tangents(corners, skin);
+    }
     for (int k = 0; k < 2; k++) {
         skin->low[k] = skin->high[k] = corners[0].attribute[k];
         for (int i = 1; i < 3; i++) {
@@ -101,6 +124,12 @@ static rlf_result add_triangles(soft *s, const int32_t *indices, int32_t count,
     return result;
 }
 
+/* One more than its index; 0 = none. */
+static const rlf_model_texture *texture_of(const rlf_model *model, int32_t number)
+{
+    return number > 0 ? &model->textures[number - 1] : NULL;
+}
+
 rlf_result soft_scene_add_model(soft *s, const rlf_look *look, const rlf_pose *T_picture_body,
                                 int32_t body)
 {
@@ -111,7 +140,9 @@ rlf_result soft_scene_add_model(soft *s, const rlf_look *look, const rlf_pose *T
     }
     for (int32_t i = 0; i < model->part_count && result == RLF_OK; i++) {
         const rlf_model_part *part = &model->parts[i];
-        soft_skin skin = {.texture = part->texture >= 0 ? &model->textures[part->texture] : NULL};
+        soft_skin skin = {.texture = texture_of(model, part->texture + 1),
+                          .surface = texture_of(model, part->surface_texture),
+                          .normals = texture_of(model, part->normal_texture)};
         skin.material = (probe_material){part->metallic, 1.0f - part->gloss};
         for (int k = 0; k < 3; k++) {
             skin.color[k] = s->scene.bodies[body].color[k] * part->color[k] * part->color[k];

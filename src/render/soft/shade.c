@@ -166,6 +166,8 @@ RLF_KERNEL_PART void shade_run(const shading *job, int32_t row_index, int32_t x,
             fill_ramp(r.attribute[SOFT_S], i, v->s + at);
             fill_ramp(r.attribute[SOFT_T], i, v->t + at);
             fill_light(nodes, first_node + i / px, px, at, v);
+            fill_all(v->material.metallic, v->metallic + at);
+            fill_all(v->material.roughness, v->roughness + at);
             v->segments[v->segment_count++] =
                 (stream_segment){row_index, x + i, count, at, job->id, job->fading.far_z};
             v->count += count;
@@ -265,30 +267,46 @@ RLF_KERNEL_PART soft_depth_range fading_range(const soft_face *f, const soft_rea
     return range;
 }
 
+/* Of a model's face. Where normals turn much within a pixel it mirrors what they all do, as a
+ * rougher one does: Kaplanyan, Hill, Patney and Lefohn 2016. */
+static probe_material material_of(const soft_face *f, probe_material material)
+{
+    const float z = 1.0f / f->inverse_z.at0;
+    float turn = 0.0f;
+    for (int k = SOFT_NORMAL; k < SOFT_NORMAL + 3; k++) {
+        const float n = f->attribute[k].at0 * z;
+        const float dx = (f->attribute[k].dx - n * f->inverse_z.dx) * z;
+        const float dy = (f->attribute[k].dy - n * f->inverse_z.dy) * z;
+        turn += 0.25f * (dx * dx + dy * dy);
+    }
+    turn = turn < PROBE_TURN ? turn : PROBE_TURN;
+    const float square = material.roughness * material.roughness;
+    if (turn > 1e-3f) {
+        material.roughness = sqrtf(sqrtf(square * square + turn));
+    }
+    return material;
+}
+
 RLF_KERNEL void soft_shade_faces(const soft *s, const soft_ends *ends, int32_t count,
                                  const soft_group *group)
 {
     soft_stream stream;
     stream.body = NULL;
-    stream.material = (probe_material){0.0f, 0.0f};
     stream.count = stream.segment_count = 0;
     for (int32_t i = 0; i < count; i++) {
         const int32_t id = ends[i].face;
         const soft_face *face = &s->scene.faces[id];
         const soft_body *body = &s->scene.bodies[face->body];
         const bool has_skin = face->skin > 0;
-        const probe_material material =
-            has_skin ? s->scene.skins[face->skin].material : body->material;
-        if (stream.body != body || stream.has_skin != has_skin ||
-            material.metallic != stream.material.metallic ||
-            material.roughness != stream.material.roughness) {
+        if (stream.body != body || stream.has_skin != has_skin) {
             if (stream.count > 0) {
                 soft_stream_flush(s, group, &stream);
             }
             stream.body = body;
             stream.has_skin = has_skin;
-            stream.material = material;
         }
+        stream.material =
+            has_skin ? material_of(face, s->scene.skins[face->skin].material) : body->material;
         const shading job = {
             s, group, face, &ends[i], id, fading_range(face, &group->rows[0].real), &stream};
         shade_face(&job);

@@ -6,6 +6,7 @@
 
 #include "kernel/kernel.h"
 #include "render/soft/soft.h"
+#include "render/soft/stream.h"
 
 #include <string.h>
 
@@ -147,10 +148,10 @@ RLF_KERNEL_PART void add_level(const level *l, float share, lookup *v, float rgb
     }
 }
 
-RLF_KERNEL void soft_skin_colors(const soft_skin *skin, const soft_face *f, soft_lanes_at at,
-                                 const float *z, float rgb[3][SOFT_LANES])
+RLF_KERNEL void soft_skin_colors(const soft_skin *skin, const rlf_model_texture *texture,
+                                 const soft_face *f, soft_lanes_at at, const float *z,
+                                 float rgb[3][SOFT_LANES])
 {
-    const rlf_model_texture *texture = skin->texture;
     const float dx = (float)at.x - f->origin_x;
     const float dy = (float)at.y - f->origin_y;
     const float last = (float)(texture->level_count - 1);
@@ -168,5 +169,43 @@ RLF_KERNEL void soft_skin_colors(const soft_skin *skin, const soft_face *f, soft
     if (share > 0.0f) {
         const level coarse = level_of(texture, lower + 1);
         add_level(&coarse, share, &v, rgb);
+    }
+}
+
+/* ---- metal, roughness, normals -------------------------------------------------------------- */
+
+/* Bends unnormalised normals by what a texture says across, up and outwards. */
+RLF_KERNEL_PART void bend(const soft_skin *skin, const float rgb[3][SOFT_LANES], int32_t count,
+                          float *restrict nx, float *restrict ny, float *restrict nz)
+{
+    const float *a = skin->across;
+    const float *u = skin->up;
+    for (int32_t i = 0; i < count; i++) {
+        const float length = sqrtf(nx[i] * nx[i] + ny[i] * ny[i] + nz[i] * nz[i]);
+        const float across = (2.0f * rgb[0][i] - 1.0f) * length;
+        const float up = (2.0f * rgb[1][i] - 1.0f) * length;
+        const float out = 2.0f * rgb[2][i] - 1.0f;
+        nx[i] = nx[i] * out + a[0] * across + u[0] * up;
+        ny[i] = ny[i] * out + a[1] * across + u[1] * up;
+        nz[i] = nz[i] * out + a[2] * across + u[2] * up;
+    }
+}
+
+RLF_KERNEL void soft_skin_surface(const soft_skin *skin, const soft_face *face,
+                                  const stream_segment *part, int32_t y, soft_stream *v)
+{
+    const soft_lanes_at at = {part->x, y, part->count};
+    float rgb[3][SOFT_LANES];
+    if (skin->surface != NULL) {
+        soft_skin_colors(skin, skin->surface, face, at, v->z + part->at, rgb);
+        for (int32_t i = 0; i < part->count; i++) {
+            v->roughness[part->at + i] *= rgb[1][i];
+            v->metallic[part->at + i] *= rgb[2][i];
+        }
+    }
+    if (skin->normals != NULL) {
+        soft_skin_colors(skin, skin->normals, face, at, v->z + part->at, rgb);
+        bend(skin, (const float(*)[SOFT_LANES])rgb, part->count, v->n[0] + part->at,
+             v->n[1] + part->at, v->n[2] + part->at);
     }
 }

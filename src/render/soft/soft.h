@@ -71,10 +71,12 @@ typedef struct soft_face {
 
 /* What a model's face takes its colours from. */
 typedef struct soft_skin {
-    const rlf_model_texture *texture; /* NULL = none */
-    float color[3];                   /* of the part and the body, linear */
+    const rlf_model_texture *texture;           /* NULL = none; so are */
+    const rlf_model_texture *surface, *normals; /* as rlf_model_part has them */
+    float color[3];                             /* of the part and the body, linear */
     probe_material material;
-    float low[2], high[2]; /* texture coordinates of the face */
+    float low[2], high[2];  /* texture coordinates of the face */
+    float across[3], up[3]; /* on it, picture camera frame: where red and green of normals go */
 } soft_skin;
 
 typedef struct soft_body {

@@ -190,7 +190,7 @@ RLF_KERNEL_PART void add_skin(const soft *s, const soft_stream *stream, const st
     float codes[SOFT_LANES];
     if (skin->texture != NULL) {
         const soft_lanes_at at = {part->x, row->y, part->count};
-        soft_skin_colors(skin, face, at, stream->z + part->at, rgb);
+        soft_skin_colors(skin, skin->texture, face, at, stream->z + part->at, rgb);
     }
     for (int k = 0; k < 3; k++) {
         RLF_KERNEL_WHOLE
@@ -241,13 +241,13 @@ RLF_KERNEL_PART void add_segment(const soft *s, const soft_stream *stream,
 /* What is beyond the last lane is worked on too. */
 static void end_lanes(soft_stream *v)
 {
-    float *const all[10] = {v->coverage, v->n[0],  v->n[1],  v->n[2],    v->s,
-                            v->t,        v->ray_x, v->ray_y, v->ambient, v->direct};
-    for (int k = 0; k < 10; k++) {
+    float *const all[11] = {v->coverage, v->n[0],  v->n[1],    v->n[2],   v->s,       v->t,
+                            v->ray_x,    v->ray_y, v->ambient, v->direct, v->metallic};
+    for (int k = 0; k < 11; k++) {
         memset(all[k] + v->count, 0, SOFT_LANES * sizeof(float));
     }
     for (int32_t i = 0; i < SOFT_LANES; i++) {
-        v->z[v->count + i] = 1.0f;
+        v->z[v->count + i] = v->roughness[v->count + i] = 1.0f;
     }
 }
 
@@ -262,7 +262,12 @@ RLF_KERNEL void soft_stream_flush(const soft *s, const soft_group *group, soft_s
     invert(count, v->z);
     float light[3];
     caster_to_floats(s->to_light, light);
-    soft_light_lanes(body->probe, light, v->material, v);
+    for (int32_t i = 0; v->has_skin && i < v->segment_count; i++) {
+        const stream_segment *part = &v->segments[i];
+        const soft_face *face = &s->scene.faces[part->face];
+        soft_skin_surface(&s->scene.skins[face->skin], face, part, group->rows[part->row].y, v);
+    }
+    soft_light_lanes(body->probe, light, v);
     if (!v->has_skin) {
         place_texels(count, body->texture_size, v->z, v->s, v->t, v->texel);
         look_up(count, body->texture, v->texel, v->texels);

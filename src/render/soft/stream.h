@@ -16,15 +16,16 @@ typedef struct stream_segment {
 
 /* Pixels that wait for their colour. Of each lane: */
 typedef struct soft_stream {
-    const soft_body *body; /* of all faces */
-    bool has_skin;         /* alike; else the body's own pattern */
-    probe_material material;
-    int32_t count; /* of lanes; the next SOFT_LANES may hold anything */
+    const soft_body *body;   /* of all faces */
+    bool has_skin;           /* alike; else the body's own pattern */
+    probe_material material; /* of the face that is being added */
+    int32_t count;           /* of lanes; the next SOFT_LANES may hold anything */
     int32_t segment_count;
     float coverage[STREAM_ROOM]; /* share of the samples that see the face */
     float z[STREAM_ROOM];        /* first 1/z */
     float n[3][STREAM_ROOM];     /* normal / z */
     float ray_x[STREAM_ROOM], ray_y[STREAM_ROOM];
+    float metallic[STREAM_ROOM], roughness[STREAM_ROOM];
     float s[STREAM_ROOM], t[STREAM_ROOM];            /* first s/z, t/z */
     float ambient[STREAM_ROOM], direct[STREAM_ROOM]; /* shares of light that are left */
     /* light sent, colour times the one plus the other; without a skin its codes */
@@ -45,8 +46,11 @@ RLF_KERNEL_PART float stream_clamp(float x, float low, float high)
 void soft_stream_flush(const soft *s, const soft_group *group, soft_stream *stream);
 
 /* gloss.c: light that the waiting pixels send, by a unit vector to the lamp. */
-void soft_light_lanes(const light_probe *probe, const float light[3], probe_material material,
-                      soft_stream *v);
+void soft_light_lanes(const light_probe *probe, const float light[3], soft_stream *v);
+
+/* skin.c: normals, metal and roughness of a segment of row y, as the skin's textures have them. */
+void soft_skin_surface(const soft_skin *skin, const soft_face *face, const stream_segment *part,
+                       int32_t y, soft_stream *v);
 
 /* ---- body_light.c: what is left of the light on a body's faces, at nodes a few pixels apart. */
 
