@@ -24,6 +24,7 @@ static const double forearm_seen[2] = {0.03, 0.10};
 static const double forearm_uneven[2] = {0.15, 0.30};
 static const double arm_length[2] = {0.72, 0.85}, leg_length[2] = {0.95, 1.05};
 static const double calf_half[2] = {0.040, 0.050};
+static const double area_seen[2] = {0.0015, 0.0030}; /* m^2: a hand on its edge */
 
 /* 0 at range[0] .. 1 at range[1]. */
 static double beyond(double x, const double range[2])
@@ -79,11 +80,11 @@ double hand_likeness_of_limb(const hand_limb *limb, const hand_palm *palm)
            wrist;
 }
 
-double hand_likeness_of_fit(double limb, double hand, double thing)
+double hand_likeness_of_fit(double limb, double hand, double thing, double area)
 {
     const double prior = rlf_clamp(limb, LIMB_LEAST, 1.0 - LIMB_LEAST);
     double odds = LIMB_SHARE * rlf_log_e(prior / (1.0 - prior));
     odds += THING_SHARE * rlf_log_e((thing + 1.0) / (hand + 1.0));
     odds -= rlf_clamp((hand - HAND_ENERGY) / HAND_WIDTH, 0.0, ODDS_MOST);
-    return 1.0 / (1.0 + rlf_exp(-odds));
+    return beyond(area, area_seen) / (1.0 + rlf_exp(-odds));
 }

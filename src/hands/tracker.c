@@ -258,7 +258,8 @@ static bool fit_hand(rlf_hand_tracker *t, const rlf_surface *surface, hand_seen 
     }
     hand_gesture_read(&seen->hand, &f->search, t->crop);
     const double thing = hand_likeness_of_thing(t->crop);
-    const double fitted = hand_likeness_of_fit(seen->hand.confidence, energy, thing);
+    const double pixel = sight.palm.z / t->crop->fx, area = pixel * pixel * t->crop->pixel_count;
+    const double fitted = hand_likeness_of_fit(seen->hand.confidence, energy, thing, area);
     const bool is_far = sight.palm.z > 0.5 * FINGER_M * surface->camera.fx;
     seen->hand.confidence = is_far ? rlf_min(fitted, FAR_LIMB * seen->hand.confidence) : fitted;
     return true;
