@@ -9,6 +9,8 @@
 #define NOISE_SIGMAS 4.0     /* beyond that two depths differ */
 #define BODY_RADIUS_M 0.11f  /* no limb, no hand and no head has a disc as large in it */
 #define PIECE_LEAST_M2 0.002 /* a smaller piece is no hand: one seen edge-on has 30 cm^2 */
+#define BRIDGE_M 0.2f        /* a hand hides the forearm that it is before by as much */
+#define FOREARM_FROM_M 0.2f  /* from the root on there may be forearm */
 #define HAND_MOST_M2 0.03    /* a spread hand and its wrist */
 #define ARM_MOST_M2 0.09     /* a whole arm with its sleeve; what is larger has a body */
 #define LESS_M 0.001f        /* a way that is shorter by less changes nothing */
@@ -346,12 +348,9 @@ static void spread_from(hand_cells *c, int32_t cell)
     hand_cells_spread(c, c->reach, 1, CELL_FAR);
 }
 
-/* A hand hides the forearm that it is before; from a hand's length off the root on there may be
- * forearm. */
 static bool hides_forearm(const hand_cells *c, int32_t edge, int32_t behind)
 {
-    return edge >= 0 && c->z[behind] - c->z[edge] < (float)HAND_LONGEST_M &&
-           c->reach[behind] > (float)HAND_LONGEST_M;
+    return edge >= 0 && c->z[behind] - c->z[edge] < BRIDGE_M && c->reach[behind] > FOREARM_FROM_M;
 }
 
 /* A piece that no root reaches is the hand before its arm, or a body by its size, which arms may

@@ -2,7 +2,6 @@
 #ifndef RLF_HANDS_CELLS_H
 #define RLF_HANDS_CELLS_H
 
-#include "hands/size.h"
 #include "relief/surface.h"
 
 #define CELL_FAR 1e9f /* no way leads there */

@@ -3,12 +3,15 @@
 
 #include <string.h>
 
-#define HALF_M 0.135 /* of the crop's side: every pixel of it from 0.8 m of a Kinect v2 on */
-#define AHEAD_M 0.03 /* the crop's middle is so far along the arm: fingers reach farther */
+#define HALF_M 0.135   /* of the crop's side: to the sides of the palm's middle */
+#define AHEAD_M 0.03   /* its own middle is so far along the arm: fingers reach farther */
+#define REACH_M 0.155  /* no part of a hand of 0.205 m is farther from its palm's middle */
+#define BEHIND_M 0.105 /* along the forearm: half a palm, and some of the forearm */
+#define STEP_M 0.015   /* in depth between neighbours; a finger before the palm is farther */
 #define PIXELS_LEAST 40
-/* Ends of fingers have few pixels and tell most: they count so much more from a quarter of the hand
- * off the palm's middle on, within ENDS_TO_M. */
+/* Ends of fingers have few pixels and tell most: so far from the palm, within so much more. */
 #define ENDS_MORE 2.0
+#define ENDS_FROM_M 0.05
 #define ENDS_TO_M 0.03
 
 static int32_t clamped(double x, int32_t low, int32_t high)
@@ -77,7 +80,7 @@ static int32_t first_pixel(const hand_crop *c, const rlf_surface *s, rlf_vec3 pa
         const int32_t i = is_inside ? (y + dy) * c->width + x + dx : 0;
         if (is_inside && far < least && is_foreground(c, s, i)) {
             const double off = (double)c->z[i] - palm.z;
-            if (off < 0.25 * HAND_M && off > -0.25 * HAND_M) {
+            if (off < 0.04 && off > -0.04) {
                 best = i;
                 least = far;
             }
@@ -88,10 +91,8 @@ static int32_t first_pixel(const hand_crop *c, const rlf_surface *s, rlf_vec3 pa
 
 static void flood(hand_crop *c, const rlf_surface *s, int32_t first, rlf_vec3 palm, rlf_vec3 arm)
 {
-    const float step = (float)FINGER_M + 4.0f * c->noise; /* a finger before the palm is farther */
+    const float step = (float)STEP_M + 4.0f * c->noise;
     memset(c->is_hand, 0, (size_t)c->width * (size_t)c->height);
-    const double reach = 0.75 * HAND_LONGEST_M;
-    const double behind = 0.5 * HAND_LONGEST_M; /* half a palm, and some of the forearm */
     c->pixel[0] = first;
     c->is_hand[first] = 1;
     c->pixel_count = 1;
@@ -106,7 +107,7 @@ static void flood(hand_crop *c, const rlf_surface *s, int32_t first, rlf_vec3 pa
                 continue;
             }
             const rlf_vec3 off = rlf_sub(point_of(c, at[k]), palm);
-            if (rlf_dot(off, off) < reach * reach && rlf_dot(off, arm) > -behind) {
+            if (rlf_dot(off, off) < REACH_M * REACH_M && rlf_dot(off, arm) > -BEHIND_M) {
                 c->is_hand[at[k]] = 1;
                 c->pixel[c->pixel_count++] = at[k];
             }
@@ -170,8 +171,8 @@ static void sample(hand_crop *c, rlf_vec3 palm, uint32_t turn)
         c->way_y[k] = (float)way.y;
         c->way_z[k] = (float)way.z;
         const double far = rlf_length(rlf_sub(p, palm));
-        c->share[k] = (float)(1.0 + ENDS_MORE * rlf_clamp((far - 0.25 * HAND_LONGEST_M) / ENDS_TO_M,
-                                                          0.0, 1.0));
+        c->share[k] =
+            (float)(1.0 + ENDS_MORE * rlf_clamp((far - ENDS_FROM_M) / ENDS_TO_M, 0.0, 1.0));
     }
 }
 

@@ -2,7 +2,6 @@
 #ifndef RLF_HANDS_CROP_H
 #define RLF_HANDS_CROP_H
 
-#include "hands/size.h"
 #include "relief/surface.h"
 
 #define CROP_SIDE 128

@@ -5,13 +5,15 @@
 
 #define FORGET_NS INT64_C(300000000) /* a hand that is not seen for longer is a new one */
 #define GAP_MAX_S 0.3                /* longer steps of time tell nothing of velocity */
-#define GATE_M_S 4.0                 /* a palm comes where it is expected, or off by its speed */
+#define GATE_M 0.12                  /* a palm may be so far from where it was expected, */
+#define GATE_M_S 4.0                 /* and further by a hand's speed times the time */
 #define VELOCITY_HZ 6.0              /* cut-off of the velocity */
 #define TURN_SHARE 0.5               /* of a new direction, each frame */
 #define FRAMES_TO_TELL 3             /* that agree on a gesture */
 #define SURER 0.5                    /* of a higher confidence, each frame, */
 #define LESS_SURE 0.1                /* and of a lower one: a hand may turn its edge */
-#define UNMOVED 0.85                 /* what never moved is less sure: hands come into view */
+#define MOVED_M 0.05                 /* what has not come so far since it was first seen */
+#define UNMOVED 0.85                 /* is less sure: hands come into view by moving */
 #define SIDE_LEAST 4.0               /* frames that tell one side more than the other */
 #define SIDE_MOST 30.0
 
@@ -48,7 +50,7 @@ static void smooth(const hand_follow *f, rlf_hand *h, const rlf_hand *seen, doub
 
 static void note_confidence(hand_track *t, double seen)
 {
-    t->has_moved = t->has_moved || rlf_length(rlf_sub(t->hand.palm, t->first_palm)) > 0.25 * HAND_M;
+    t->has_moved = t->has_moved || rlf_length(rlf_sub(t->hand.palm, t->first_palm)) > MOVED_M;
     const double sure = t->has_moved ? seen : UNMOVED * seen;
     const double share = sure > t->hand.confidence ? SURER : LESS_SURE;
     t->hand.confidence += share * (sure - t->hand.confidence);
@@ -127,8 +129,7 @@ static void begin(hand_follow *f, hand_track *t, const hand_seen *seen, int64_t 
 
 static double gate(const hand_track *t, double dt)
 {
-    return 0.75 * HAND_M +
-           GATE_M_S * rlf_min(dt, GAP_MAX_S) * rlf_min(rlf_length(t->hand.velocity), 1.0);
+    return GATE_M + GATE_M_S * rlf_min(dt, GAP_MAX_S) * rlf_min(rlf_length(t->hand.velocity), 1.0);
 }
 
 /* The closest pair of a track and a hand that both have none yet; false when none is close. */

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#define TIPS_FOOTPRINT_M 0.0042 /* of a pixel: four lie across a finger */
 /* Reach of a finger along the palm, of its length: stretched it is 1, bent by 60 degrees in each
  * joint 0.2, in a fist less than 0. */
 #define OPEN_REACH 0.8
@@ -21,12 +22,12 @@
 #define TIP_REACH 0.6     /* of a finger that sticks out */
 #define TIP_SEEN_M 0.02   /* what is seen at a tip is no farther before or behind it */
 #define THUMB_OFF_M 0.035 /* a thumb beside the palm does not stick out */
+#define PALM_M 0.015      /* middle of a palm's disc from that of its bones */
 #define READ_MOST 90.0    /* energy of a fit beyond which it says nothing */
 
 static bool has_tips(const hand_patch *p, const hand_palm *palm)
 {
-    return palm->z / rlf_max(p->surface->camera.fx, 1.0) <=
-           0.25 * FINGER_M; /* four pixels across a finger */
+    return palm->z / rlf_max(p->surface->camera.fx, 1.0) <= TIPS_FOOTPRINT_M;
 }
 
 void hand_gesture_begin(rlf_hand *h, const hand_patch *p, const hand_palm *palm)
@@ -150,7 +151,7 @@ static rlf_vec3 middle_of_palm(const rlf_hand *h, rlf_vec3 fit)
 {
     const rlf_vec3 off = rlf_sub(h->palm, fit);
     const double far = rlf_length(off);
-    return far > FINGER_M ? rlf_mad(fit, off, FINGER_M / far) : h->palm;
+    return far > PALM_M ? rlf_mad(fit, off, PALM_M / far) : h->palm;
 }
 
 void hand_gesture_read(rlf_hand *h, const hand_search *search, const hand_crop *crop)

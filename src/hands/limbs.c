@@ -1,8 +1,10 @@
 /* Extrema of the way from the roots (Plagemann et al. 2010). */
 #include "hands/limbs.h"
 
-#define REACH_LEAST_M 0.12f /* a shorter bump is no limb; of a body it is twice as long */
+#define REACH_LEAST_M 0.12f /* a shorter bump is no limb, */
+#define FROM_BODY_M 0.25f   /* nor is one of the body */
 #define SEEDS_MAX 96        /* the furthest local maxima */
+#define APART_M 0.25f       /* fingers of one hand are closer to each other */
 #define BUMP_M 0.06f        /* a first look */
 
 static bool is_maximum(const hand_cells *c, int32_t i)
@@ -24,7 +26,7 @@ static bool is_maximum(const hand_cells *c, int32_t i)
 
 static float least_reach(const hand_cells *c, int32_t i)
 {
-    return hand_cells_root(c, i) == HAND_ROOT_BODY ? 1.25f * (float)HAND_LONGEST_M : REACH_LEAST_M;
+    return hand_cells_root(c, i) == HAND_ROOT_BODY ? FROM_BODY_M : REACH_LEAST_M;
 }
 
 /* The furthest first; of equal ones the first in the picture. */
@@ -46,13 +48,12 @@ static int32_t find_seeds(const hand_cells *c, int32_t *seeds)
     return count;
 }
 
-/* Something near goes on further: a bump on a limb, and no end. Fingers of one hand are closer. */
+/* Something near goes on further: a bump on a limb, and no end. */
 static bool goes_on(const hand_limbs *l, const hand_cells *c, int32_t seed)
 {
     for (int32_t k = 0; k < c->touched_count; k++) {
         const int32_t i = c->touched[k];
-        if (l->from_tip[i] < 1.25f * (float)HAND_LONGEST_M &&
-            c->reach[i] > c->reach[seed] + 0.01f) {
+        if (l->from_tip[i] < APART_M && c->reach[i] > c->reach[seed] + 0.01f) {
             return true;
         }
     }

@@ -8,7 +8,7 @@
 #define TURN_WRIST (TURN_FINGER + 16)
 #define LAST_JOINT (2.0 / 3.0) /* of the middle one */
 
-/* Of a left hand that is HAND_M long, metres; the thumb first. */
+/* Of a left hand of MODEL_LENGTH_M, metres; the thumb first. */
 static const double roots[5][3] = {{0.020, 0.018, -0.008},
                                    {0.026, 0.085, 0.000},
                                    {0.004, 0.086, 0.002},

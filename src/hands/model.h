@@ -2,7 +2,6 @@
 #ifndef RLF_HANDS_MODEL_H
 #define RLF_HANDS_MODEL_H
 
-#include "hands/size.h"
 #include "relief/math.h"
 
 #define MODEL_PALM 6
@@ -28,6 +27,8 @@ typedef struct hand_model_pose {
     double angle[MODEL_ANGLES]; /* as the unknowns from MODEL_THUMB on */
     bool is_left;
 } hand_model_pose;
+
+#define MODEL_LENGTH_M 0.185 /* wrist to the end of the middle finger: the mean of adults */
 
 /* A turn of what lies beyond a joint, camera frame. */
 typedef struct hand_turn {

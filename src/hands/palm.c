@@ -3,7 +3,8 @@
 
 #define BIN_M 0.01            /* of the profile along the limb */
 #define BINS 32               /* LIMB_PART_M */
-#define PALM_FROM_M 0.02      /* a palm's centre is at least this far from the tip */
+#define PALM_FROM_M 0.02      /* a palm's centre is at least this far from the tip, */
+#define PALM_TO_M 0.14        /* and at most this far: the longest hands */
 #define NEARLY 0.92           /* discs of one palm are as large as this share of the largest */
 #define WRIST_SHARE 0.88      /* of the palm, that a wrist is narrower than */
 #define CUT_BINS 7            /* where the patch or the limb ends, discs are cut so far before */
@@ -133,7 +134,7 @@ static void fit_palm(hand_palm *palm, const hand_patch *p, int32_t seed)
     rlf_vec3 sum = {0, 0, 0}, normal = {0, 0, 0};
     int32_t count = 0;
     for (int32_t i = 0; i < p->width * p->height; i++) {
-        if (!is_limb(p, i)) {
+        if (p->mask[i] != 1) {
             continue;
         }
         const double dx = i % p->width - palm->x, dy = (double)(i / p->width) - palm->y;
@@ -177,8 +178,7 @@ static void find_arm(hand_palm *palm, const hand_patch *p)
 /* The first disc from the tip that is nearly as large as the largest that a palm may be. */
 static int32_t first_wide(const profile *f)
 {
-    const int32_t from = (int32_t)(PALM_FROM_M / BIN_M),
-                  to = (int32_t)(0.75 * HAND_M / BIN_M + 0.5);
+    const int32_t from = (int32_t)(PALM_FROM_M / BIN_M), to = (int32_t)(PALM_TO_M / BIN_M);
     const int32_t largest = widest(f, from, to);
     int32_t bin = from;
     while (bin < largest && f->radius[bin] < NEARLY * f->radius[largest]) {

@@ -1,13 +1,18 @@
-/* Pixels and discs of a limb's end. */
+/* Mask, holes and discs of a limb's end. */
 #include "hands/patch.h"
 
 #define PIXEL_M 0.0015   /* finer pixels tell nothing more of a hand */
 #define PIXELS_LEAST 24  /* of a hand */
 #define SAME_SIGMAS 6.0f /* of noise; beyond it and SAME_M a pixel is not what its cell is */
 #define SAME_M 0.03f     /* two cells' slant */
-
-#define INSIDE (INT32_MAX / 2)
-#define OUTSIDE (-1)
+#define BEHIND_M 0.10f   /* behind the fingers; nearer than that is the own palm */
+/* A finger's cross section: what is smaller is a gap in the depth. */
+#define HOLE_LEAST_M2 0.0001
+#define MASK_OUTSIDE 0
+#define MASK_LIMB 1
+#define MASK_FILLED 2
+#define MASK_THROUGH 3
+#define MASK_UNKNOWN 4
 
 rlf_vec3 hand_patch_point(const hand_patch *p, int32_t i)
 {
@@ -41,7 +46,7 @@ static void place(hand_patch *p, const rlf_surface *s, const hand_cells *c, cons
 static int32_t read_pixel(hand_patch *p, const hand_cells *c, const hand_limbs *l, int32_t owner,
                           int32_t i, int32_t x, int32_t y)
 {
-    p->disc[i] = 0;
+    p->mask[i] = MASK_UNKNOWN;
     p->z[i] = 0.0f;
     p->along[i] = CELL_FAR;
     if (x < 0 || y < 0 || x >= c->width * c->step || y >= c->height * c->step) {
@@ -61,44 +66,71 @@ static int32_t read_pixel(hand_patch *p, const hand_cells *c, const hand_limbs *
     if (z - c->z[cell] > SAME_M + SAME_SIGMAS * sigma) {
         return 0;
     }
-    p->disc[i] = INSIDE;
+    p->mask[i] = MASK_LIMB;
     p->along[i] = l->along[cell];
     return 1;
 }
 
-/* Marks what surrounds the limb. */
-static void flood_outside(hand_patch *p)
+/* Spreads `value` over unknown pixels from pixel `first`, by sides. Lists them in the stack and
+ * returns how many there are. */
+static int32_t flood(hand_patch *p, int32_t first, uint8_t value)
 {
-    const int32_t w = p->width;
     int32_t count = 1;
-    p->stack[0] = 0;
-    p->disc[0] = OUTSIDE;
-    while (count > 0) {
-        const int32_t i = p->stack[--count], x = i % w, y = i / w;
-        const int32_t at[4] = {x > 0 ? i - 1 : i, x < w - 1 ? i + 1 : i, y > 0 ? i - w : i,
-                               y < p->height - 1 ? i + w : i};
+    p->stack[0] = first;
+    p->mask[first] = value;
+    for (int32_t head = 0; head < count; head++) {
+        const int32_t i = p->stack[head];
+        const int32_t x = i % p->width;
+        const int32_t y = i / p->width;
+        const int32_t at[4] = {x > 0 ? i - 1 : i, x < p->width - 1 ? i + 1 : i,
+                               y > 0 ? i - p->width : i, y < p->height - 1 ? i + p->width : i};
         for (int32_t k = 0; k < 4; k++) {
-            if (p->disc[at[k]] == 0) {
-                p->disc[at[k]] = OUTSIDE;
+            if (p->mask[at[k]] == MASK_UNKNOWN) {
+                p->mask[at[k]] = value;
                 p->stack[count++] = at[k];
             }
         }
     }
+    return count;
 }
 
-/* What the limb surrounds is its own: the sensor lost it, or fingers do not quite touch. */
-static void fill_holes(hand_patch *p)
+/* Depth of the limb left of a hole. */
+static int32_t limb_before(const hand_patch *p, int32_t i)
 {
-    flood_outside(p);
-    for (int32_t i = 0; i < p->width * p->height; i++) {
-        if (p->disc[i] == 0) {
-            p->disc[i] = INSIDE;
-            p->z[i] = p->z[i - 1];
-            p->along[i] = p->along[i - 1];
-        }
+    while (p->mask[i] != MASK_LIMB && i % p->width > 0) {
+        i--;
     }
+    return i;
+}
+
+/* Through a hole one sees something behind; else the sensor lost a few pixels, which are filled. */
+static void judge_hole(hand_patch *p, int32_t count)
+{
+    const int32_t before = limb_before(p, p->stack[0]);
+    const float z = p->z[before];
+    const double pixel = (double)(p->spacing * z);
+    int32_t behind = 0;
+    for (int32_t k = 0; k < count; k++) {
+        behind += p->z[p->stack[k]] > z + BEHIND_M;
+    }
+    if (behind * 3 > count && count * pixel * pixel > HOLE_LEAST_M2) {
+        return;
+    }
+    for (int32_t k = 0; k < count; k++) {
+        const int32_t i = p->stack[k];
+        p->mask[i] = MASK_FILLED;
+        p->z[i] = z;
+        p->along[i] = p->along[before];
+    }
+}
+
+static void find_holes(hand_patch *p)
+{
+    flood(p, 0, MASK_OUTSIDE);
     for (int32_t i = 0; i < p->width * p->height; i++) {
-        p->disc[i] = p->disc[i] == OUTSIDE ? 0 : INSIDE;
+        if (p->mask[i] == MASK_UNKNOWN) {
+            judge_hole(p, flood(p, i, MASK_THROUGH));
+        }
     }
 }
 
@@ -116,7 +148,10 @@ bool hand_patch_read(hand_patch *p, const rlf_surface *s, const hand_cells *c, c
     if (pixels < PIXELS_LEAST) {
         return false;
     }
-    fill_holes(p);
+    find_holes(p);
+    for (int32_t i = 0; i < p->width * p->height; i++) {
+        p->disc[i] = p->mask[i] == MASK_LIMB || p->mask[i] == MASK_FILLED ? INT32_MAX / 2 : 0;
+    }
     hand_chamfer(p->disc, p->width, p->height);
     return true;
 }

@@ -1,4 +1,4 @@
-/* The end of one limb pixel by pixel: how deep inside it each pixel is. */
+/* The end of one limb pixel by pixel: its mask, and how deep inside it each pixel is. */
 #ifndef RLF_HANDS_PATCH_H
 #define RLF_HANDS_PATCH_H
 
@@ -11,11 +11,12 @@
 typedef struct hand_patch {
     const rlf_surface *surface;
     int32_t x0, y0, step, width, height;
-    double length;              /* of the limb from its root to the tip, metres */
-    float spacing;              /* metres between pixels at 1 m */
-    float z[PATCH_COUNT];       /* metres */
-    float along[PATCH_COUNT];   /* from the tip along the limb, metres */
-    int32_t disc[PATCH_COUNT];  /* to the nearest edge, in pixels / CHAMFER; 0 = none of it */
+    double length;             /* of the limb from its root to the tip, metres */
+    float spacing;             /* metres between pixels at 1 m */
+    uint8_t mask[PATCH_COUNT]; /* 1 = of the limb, 2 = filled hole; 0 = outside, 3 = seen through */
+    float z[PATCH_COUNT];      /* metres; of a filled hole as of its neighbour */
+    float along[PATCH_COUNT];  /* from the tip along the limb, metres */
+    int32_t disc[PATCH_COUNT]; /* to the nearest edge, in pixels / CHAMFER */
     int32_t stack[PATCH_COUNT]; /* scratch */
 } hand_patch;
 

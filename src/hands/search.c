@@ -8,10 +8,10 @@
 #define WAYS 3
 #define STARTS (ROLLS * CURLS * 2 * WAYS)
 #define VARIANTS (CURLS + 2)
-#define FIRST_TRIES STARTS /* of a new hand, */
-#define TRIES 48           /* and of one that fits ill or is looked at again */
+#define FIRST_TRIES 120 /* of a new hand, */
+#define TRIES 24        /* and of one that fits ill or is looked at again */
 #define AGAIN_FRAMES 10
-#define FINALISTS 6
+#define FINALISTS 8
 #define REFINED 2
 #define COARSE 4 /* every fourth sample */
 #define COARSE_STEPS 3
@@ -21,7 +21,7 @@
 #define SAME_STRETCH 0.15
 #define SIDE_ENERGY 4.0 /* of a hope whose side the arm denies */
 #define EXPECT_ENERGY 25.0
-#define EXPECT_M 0.03 /* from the fit: the detector has gone elsewhere */
+#define EXPECT_M 0.06 /* from the fit: the detector has gone elsewhere */
 #define HALF_PALM_M 0.013
 
 /* Open, at rest, fist, pointing, pinch: first and middle joint of the index and of the others, and
@@ -65,9 +65,8 @@ static void bend_wrist(hand_model_pose *pose, rlf_vec3 arm)
     wrist[1] = rlf_clamp(rlf_atan2(across, seen.y), hand_model_low[18], hand_model_high[18]);
 }
 
-/* Start `n` of STARTS: a hand at the palm, along the arm or bent to one of its sides; or farther
- * back, where what its detector saw are fingers. */
-static hand_model_pose start_pose(const hand_sight *sight, int32_t n, bool is_back)
+/* Start `n` of STARTS: a hand at the palm, along the arm or bent to one of its sides. */
+static hand_model_pose start_pose(const hand_sight *sight, int32_t n)
 {
     const int32_t roll = n % ROLLS, curl = n / ROLLS % CURLS, way = n / (ROLLS * CURLS * 2);
     hand_model_pose pose = {.is_left = n / (ROLLS * CURLS) % 2 != 0};
@@ -81,7 +80,7 @@ static hand_model_pose start_pose(const hand_sight *sight, int32_t n, bool is_ba
     pose.q = rlf_quat_from_mat3(&m);
     bend(&pose, curl);
     const rlf_vec3 palm = rlf_mad(sight->palm, sight_way, HALF_PALM_M);
-    pose.at = rlf_mad(palm, y, is_back ? -0.5 * HAND_M : -0.25 * HAND_M);
+    pose.at = rlf_mad(palm, y, -0.047);
     bend_wrist(&pose, sight->arm);
     return pose;
 }
@@ -176,8 +175,8 @@ static void try_starts(hand_search *h, const hand_crop *crop, const hand_sight *
     int32_t count = 0;
     for (int32_t n = h->count > 0 ? -VARIANTS : 0; n < tries; n++) {
         hand_hope hope = {.velocity = h->count > 0 ? h->hope[0].velocity : rlf_vec3_make(0, 0, 0)};
-        hope.fit.pose = n < 0 ? variant(h, sight->arm, n + VARIANTS)
-                              : start_pose(sight, h->next * 77 % STARTS, h->frame % 3 == 2);
+        hope.fit.pose =
+            n < 0 ? variant(h, sight->arm, n + VARIANTS) : start_pose(sight, h->next * 77 % STARTS);
         h->next = n < 0 ? h->next : (h->next + 1) % STARTS;
         hand_fit_judge(&hope.fit, crop, COARSE);
         hope.energy = hope.fit.energy + side_energy(sight, &hope.fit.pose);
@@ -251,8 +250,7 @@ bool hand_search_update(hand_search *h, const hand_crop *crop, const hand_sight 
     sort(h);
     if (h->count == 0) {
         try_starts(h, crop, sight, FIRST_TRIES);
-    } else if (h->hope[0].energy > SEARCH_SURE || h->frame < AGAIN_FRAMES ||
-               h->frame % AGAIN_FRAMES == 0) {
+    } else if (h->hope[0].energy > SEARCH_SURE || h->frame % AGAIN_FRAMES == 0) {
         try_starts(h, crop, sight, TRIES);
     }
     h->frame++;

@@ -7,14 +7,17 @@
 
 #include <string.h>
 
-#define CONFIDENCE_LEAST 0.05 /* below it nobody asks */
-#define UNFITTED 0.45         /* of the limb's likeness, where no fit says more */
-#define FAR_LIMB 0.7          /* where two pixels cross a finger, no fit makes a limb likelier */
-#define GO_ON_S 0.12          /* a fit goes on without a limb's end near it after such gaps, */
-#define ALONE_LIMB 0.2        /* where it has been one, */
-#define ALONE_ENERGY 45.0     /* while one frame fits it so well, */
-#define ALONE_KEEP 0.98       /* less likely with each frame */
-#define FIT_GAP_S 0.3         /* a fit that is older begins anew */
+#define CONFIDENCE_LEAST 0.05  /* below it nobody asks */
+#define FIT_GATE_M 0.12        /* a palm goes on with a fit that was so near */
+#define FAR_FOOTPRINT_M 0.0084 /* of a pixel: two across a finger; */
+#define SAME_M 0.09            /* a limb's end is that near to a fit that is the same hand */
+#define UNFITTED 0.45          /* of the limb's likeness, where no fit says more */
+#define FAR_LIMB 0.7           /* where two pixels cross a finger, no fit makes a limb likelier */
+#define GO_ON_S 0.12           /* a fit goes on without a limb's end near it after such gaps, */
+#define ALONE_LIMB 0.2         /* where it has been one, */
+#define ALONE_ENERGY 45.0      /* while one frame fits it so well, */
+#define ALONE_KEEP 0.98        /* less likely with each frame */
+#define FIT_GAP_S 0.3          /* a fit that is older begins anew */
 
 /* The fingers of one hand over frames. */
 typedef struct hand_fitted {
@@ -210,7 +213,7 @@ static int32_t see_limbs(rlf_hand_tracker *t, const rlf_surface *surface)
 static hand_fitted *fit_at(rlf_hand_tracker *t, rlf_vec3 palm, double *out_dt)
 {
     hand_fitted *best = NULL;
-    double least = 0.75 * HAND_M;
+    double least = FIT_GATE_M;
     for (int32_t k = 0; k < FITS_MAX; k++) {
         hand_fitted *f = &t->fitted[k];
         const double dt = (double)(t->out.time_ns - f->last_ns) * 1e-9;
@@ -260,7 +263,7 @@ static bool fit_hand(rlf_hand_tracker *t, const rlf_surface *surface, hand_seen 
     const double thing = hand_likeness_of_thing(t->crop);
     const double pixel = sight.palm.z / t->crop->fx, area = pixel * pixel * t->crop->pixel_count;
     const double fitted = hand_likeness_of_fit(seen->hand.confidence, energy, thing, area);
-    const bool is_far = sight.palm.z > 0.5 * FINGER_M * surface->camera.fx;
+    const bool is_far = sight.palm.z > FAR_FOOTPRINT_M * surface->camera.fx;
     seen->hand.confidence = is_far ? rlf_min(fitted, FAR_LIMB * seen->hand.confidence) : fitted;
     return true;
 }
@@ -300,7 +303,7 @@ static bool is_of_limb(const hand_model *m, rlf_vec3 palm, rlf_vec3 seen)
     const rlf_vec3 arm = rlf_sub(m->b[MODEL_CONES - 1], palm);
     const double along = rlf_dot(rlf_sub(seen, palm), arm) / rlf_dot(arm, arm);
     const rlf_vec3 near = rlf_mad(palm, arm, rlf_clamp(along, 0.0, 1.0));
-    return rlf_length(rlf_sub(near, seen)) < 0.5 * HAND_M;
+    return rlf_length(rlf_sub(near, seen)) < SAME_M;
 }
 
 /* A hand that lies on a thing, or is closed before its arm, ends no limb: where its fit was good it
