@@ -8,13 +8,10 @@
 #define ROBUST_SIGMAS 3.0 /* Geman and McClure: what is farther pulls less */
 #define INDEPENDENT 40.0  /* samples' worth: errors of neighbours are the same */
 #define FOREARM_SHARE 0.3
-#define WRIST_M 0.06 /* behind the middle of the palm */
-#define AWAY_COS 0.3 /* of a hand that points away from the camera */
-#define EMPTY_SIGMA_M 0.008
+#define WRIST_M 0.06     /* behind the middle of the palm */
+#define AWAY_COS 0.3     /* of a hand that points away from the camera */
 #define EMPTY_SHARE 0.25 /* of a ball's: two in a cone are one error */
 #define EMPTY_MOST_M 0.03
-#define EMPTY_FREE_M 0.004
-#define APART_SIGMA_M 0.004
 #define BEND_SIGMA 1.5 /* rad: habits */
 #define THUMB_SIGMA 0.5
 #define ASIDE_SIGMA 0.2
@@ -210,7 +207,7 @@ static bool leaves_empty(const hand_crop *c, const rlf_vec3 middle, double radiu
     if (c->is_hand[i] != 0) {
         out->direction = rlf_vec3_make(0, 0, 1);
         out->off = seen - front;
-        return out->off > EMPTY_FREE_M + 2.0 * (double)c->noise;
+        return out->off > SIGMA_M + 2.0 * (double)c->noise;
     }
     if (!(seen > front) || c->nearest[i] < 0) {
         return false;
@@ -226,7 +223,7 @@ static double add_empty(equations *e, const hand_model *m, const hand_crop *c)
 {
     static const double places[2] = {0.45, 1.0};
     const double pixel = m->palm.z / c->fx;
-    const double sigma2 = EMPTY_SIGMA_M * EMPTY_SIGMA_M + pixel * pixel;
+    const double sigma2 = 4.0 * SIGMA_M * SIGMA_M + pixel * pixel;
     double energy = 0.0;
     for (int32_t k = 0; k < 2 * MODEL_HAND; k++) {
         const int32_t cone = k / 2;
@@ -254,7 +251,7 @@ static double add_apart(equations *e, const hand_model *m)
         const double far = rlf_length(way);
         const double deep = m->radius_b[k] + m->radius_b[k + 3] - far;
         if (deep > 0.0 && far > 1e-6) {
-            const double weight = 1.0 / (APART_SIGMA_M * APART_SIGMA_M);
+            const double weight = 1.0 / (SIGMA_M * SIGMA_M);
             pull p = {m->b[k], rlf_scale(way, -1.0 / far), 0.5 * deep, weight, k};
             energy += 0.5 * weight * deep * deep;
             if (e != NULL) {

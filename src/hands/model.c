@@ -9,11 +9,11 @@
 #define LAST_JOINT (2.0 / 3.0) /* of the middle one */
 
 /* Of a left hand of MODEL_LENGTH_M, metres; the thumb first. */
-static const rlf_vec3 roots[5] = {{0.020, 0.018, -0.008},
-                                  {0.026, 0.0850, 0.000},
-                                  {0.004, 0.0860, 0.002},
-                                  {-0.016, 0.0790, 0.000},
-                                  {-0.034, 0.0710, -0.003}};
+static const double roots[5][3] = {{0.020, 0.018, -0.008},
+                                   {0.026, 0.085, 0.000},
+                                   {0.004, 0.086, 0.002},
+                                   {-0.016, 0.079, 0.000},
+                                   {-0.034, 0.071, -0.003}};
 static const double lengths[5][3] = {{0.0464, 0.0363, 0.0212},
                                      {0.0453, 0.0265, 0.0115},
                                      {0.0492, 0.0315, 0.0130},
@@ -25,18 +25,15 @@ static const double radii[5][4] = {{0.0150, 0.0120, 0.0110, 0.0085},
                                    {0.0102, 0.0087, 0.0077, 0.0066},
                                    {0.0090, 0.0076, 0.0068, 0.0060}};
 
-typedef struct palm_cone {
-    rlf_vec3 a, b;
-    double radius_a, radius_b;
-} palm_cone;
-
-static const palm_cone palm[MODEL_PALM] = {
-    {{0.014, 0.014, 0.000}, {0.026, 0.083, -0.001}, 0.0145, 0.0120},
-    {{0.005, 0.012, 0.001}, {0.004, 0.084, 0.000}, 0.0150, 0.0125},
-    {{-0.005, 0.012, 0.000}, {-0.016, 0.077, -0.001}, 0.0150, 0.0120},
-    {{-0.014, 0.014, -0.002}, {-0.033, 0.069, -0.003}, 0.0140, 0.0110},
-    {{-0.018, 0.018, -0.006}, {-0.029, 0.052, -0.007}, 0.0145, 0.0130},
-    {{-0.012, 0.006, -0.002}, {0.012, 0.006, -0.002}, 0.0185, 0.0185}};
+/* Cones of the palm: both middles and both radii. */
+static const double palm[MODEL_PALM][8] = {
+    {0.014, 0.014, 0.000, 0.026, 0.083, -0.001, 0.0145, 0.0120},
+    {0.005, 0.012, 0.001, 0.004, 0.084, 0.000, 0.0150, 0.0125},
+    {-0.005, 0.012, 0.000, -0.016, 0.077, -0.001, 0.0150, 0.0120},
+    {-0.014, 0.014, -0.002, -0.033, 0.069, -0.003, 0.0140, 0.0110},
+    {-0.018, 0.018, -0.006, -0.029, 0.052, -0.007, 0.0145, 0.0130},
+    {-0.012, 0.006, -0.002, 0.012, 0.006, -0.002, 0.0185, 0.0185}};
+static const double palm_middle[3] = {0.0, 0.047, -0.002};
 
 /* From the wrist on, straight; breadth and depth of a forearm differ by a third. */
 static const double forearm_at[3] = {0.0, 0.075, 0.160};
@@ -58,6 +55,11 @@ typedef struct placing {
     double side;
 } placing;
 
+static rlf_vec3 vector(const double v[3])
+{
+    return rlf_vec3_make(v[0], v[1], v[2]);
+}
+
 static rlf_vec3 place(const placing *p, rlf_vec3 v)
 {
     return rlf_add(p->pose->at, rlf_rotate(p->pose->q, rlf_vec3_make(p->side * v.x, v.y, v.z)));
@@ -74,7 +76,7 @@ static hand_turn turn_of(const placing *p, rlf_vec3 axis, rlf_vec3 centre, int32
 static void put_digit(hand_model *m, const placing *p, int32_t digit, const rlf_vec3 direction[3],
                       rlf_vec3 at[4])
 {
-    at[0] = roots[digit];
+    at[0] = vector(roots[digit]);
     for (int32_t k = 0; k < 3; k++) {
         const int32_t c = DIGIT_CONE(digit) + k;
         at[k + 1] = rlf_mad(at[k], direction[k], lengths[digit][k]);
@@ -151,12 +153,12 @@ void hand_model_build(hand_model *m, const hand_model_pose *pose)
     const placing p = {pose, pose->is_left ? 1.0 : -1.0};
     m->y = rlf_rotate(pose->q, rlf_vec3_make(0, 1, 0));
     m->z = rlf_rotate(pose->q, rlf_vec3_make(0, 0, 1));
-    m->palm = place(&p, rlf_vec3_make(0.0, 0.047, -0.002));
+    m->palm = place(&p, vector(palm_middle));
     for (int32_t k = 0; k < MODEL_PALM; k++) {
-        m->a[k] = place(&p, palm[k].a);
-        m->b[k] = place(&p, palm[k].b);
-        m->radius_a[k] = palm[k].radius_a;
-        m->radius_b[k] = palm[k].radius_b;
+        m->a[k] = place(&p, vector(palm[k]));
+        m->b[k] = place(&p, vector(palm[k] + 3));
+        m->radius_a[k] = palm[k][6];
+        m->radius_b[k] = palm[k][7];
     }
     put_thumb(m, &p);
     for (int32_t digit = 1; digit < 5; digit++) {

@@ -2,9 +2,9 @@
 #ifndef RLF_HANDS_SIDE_H
 #define RLF_HANDS_SIDE_H
 
-#include "hands/gesture.h"
+#include "hands/limbs.h"
 
-/* Sets `right` of all that are seen in one frame. */
-void hand_sides_tell(hand_seen *seen, int32_t count, const hand_cells *c, const hand_limbs *l);
+/* > 0: a right hand, < 0: a left one; 0 = not known. */
+double hand_side_of(const hand_cells *c, const hand_limb *limb, rlf_vec3 arm);
 
 #endif

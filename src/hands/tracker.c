@@ -7,16 +7,13 @@
 
 #include <string.h>
 
-#define CONFIDENCE_LEAST 0.05 /* below it nobody asks */
-#define OWNED_BEHIND_M 0.07   /* of the palm's centre: to the wrist */
-#define OWNED_AHEAD_M 0.13    /* to the finger tips; what is held lies beyond */
-
+#define CONFIDENCE_LEAST 0.05  /* below it nobody asks */
 #define FIT_GATE_M 0.12        /* a palm goes on with a fit that was so near */
-#define UNFITTED 0.45          /* of the limb's likeness, where no fit says more */
 #define FAR_FOOTPRINT_M 0.0084 /* of a pixel: two across a finger; */
-#define FAR_LIMB 0.7           /* beyond, a fit makes no limb likelier */
-#define GO_ON_S 0.12           /* a fit goes on without a limb's end after such gaps, */
-#define SAME_M 0.09            /* which is farther than this from it, */
+#define SAME_M 0.09            /* a limb's end is that near to a fit that is the same hand */
+#define UNFITTED 0.45          /* of the limb's likeness, where no fit says more */
+#define FAR_LIMB 0.7           /* where two pixels cross a finger, no fit makes a limb likelier */
+#define GO_ON_S 0.12           /* a fit goes on without a limb's end near it after such gaps, */
 #define ALONE_LIMB 0.2         /* where it has been one, */
 #define ALONE_ENERGY 45.0      /* while one frame fits it so well, */
 #define ALONE_KEEP 0.98        /* less likely with each frame */
@@ -170,28 +167,8 @@ void rlf_hand_tracker_set_down(rlf_hand_tracker *t, rlf_vec3 down)
     }
 }
 
-/* Marks the hand's pixels of the surface with 1 + the index of its limb. */
-static void own(rlf_hand_tracker *t, const hand_palm *palm, int32_t limb)
-{
-    const hand_patch *p = t->patch;
-    const float from = (float)(palm->along - OWNED_AHEAD_M);
-    const float to = (float)(palm->along + OWNED_BEHIND_M);
-    for (int32_t i = 0; i < p->width * p->height; i++) {
-        if (p->disc[i] <= 0 || p->along[i] < from || p->along[i] > to) {
-            continue;
-        }
-        const int32_t x0 = p->x0 + i % p->width * p->step;
-        const int32_t y0 = p->y0 + i / p->width * p->step;
-        for (int32_t y = y0; y < y0 + p->step && y < t->def.height; y++) {
-            for (int32_t x = x0; x < x0 + p->step && x < t->def.width; x++) {
-                t->owner[y * t->def.width + x] = (uint8_t)(limb + 1);
-            }
-        }
-    }
-}
-
-/* The same for the pixels that a fit sees, where they are nobody's. */
-static void own_crop(rlf_hand_tracker *t, int32_t limb)
+/* Marks the hand's pixels with 1 + the index of its limb, where they are nobody's. */
+static void own(rlf_hand_tracker *t, int32_t limb)
 {
     const hand_crop *c = t->crop;
     for (int32_t i = 0; i < c->pixel_count; i++) {
@@ -225,11 +202,10 @@ static int32_t see_limbs(rlf_hand_tracker *t, const rlf_surface *surface)
         }
         if (seen->hand.confidence >= CONFIDENCE_LEAST &&
             seen->hand.confidence * seen->no_foot >= CONFIDENCE_LEAST) {
-            own(t, &palm, k);
+            seen->right = hand_side_of(&t->cells, &t->limbs.limb[k], palm.arm);
             count++;
         }
     }
-    hand_sides_tell(t->seen, count, &t->cells, &t->limbs);
     return count;
 }
 
@@ -274,9 +250,7 @@ static bool fit_hand(rlf_hand_tracker *t, const rlf_surface *surface, hand_seen 
     f->palm = sight.palm;
     f->limb = seen->hand.confidence;
     f->radius = seen->hand.palm_radius;
-    if (seen->limb >= LIMBS_MAX) {
-        own_crop(t, seen->limb);
-    }
+    own(t, seen->limb);
     f->last_ns = t->out.time_ns;
     if (!hand_search_update(&f->search, t->crop, &sight, dt)) {
         return false;
@@ -287,7 +261,8 @@ static bool fit_hand(rlf_hand_tracker *t, const rlf_surface *surface, hand_seen 
     }
     hand_gesture_read(&seen->hand, &f->search, t->crop);
     const double thing = hand_likeness_of_thing(t->crop);
-    const double fitted = hand_likeness_of_fit(seen->hand.confidence, energy, thing);
+    const double pixel = sight.palm.z / t->crop->fx, area = pixel * pixel * t->crop->pixel_count;
+    const double fitted = hand_likeness_of_fit(seen->hand.confidence, energy, thing, area);
     const bool is_far = sight.palm.z > FAR_FOOTPRINT_M * surface->camera.fx;
     seen->hand.confidence = is_far ? rlf_min(fitted, FAR_LIMB * seen->hand.confidence) : fitted;
     return true;

@@ -14,6 +14,7 @@ typedef struct grasp {
     rlf_shape shape;
     double width; /* between the fingers when they touch */
     double noise; /* m of depth */
+    bool is_fit;  /* the hand is known: what opens along the view is seen by its fit alone */
 } grasp;
 
 static rlf_world *make_world(const rlf_shape *shape, rlf_vec3 at, rlf_body_id *id)
@@ -29,6 +30,26 @@ static rlf_world *make_world(const rlf_shape *shape, rlf_vec3 at, rlf_body_id *i
     body.restitution = 0.1;
     assert_int_equal(rlf_world_add_body(world, &body, id), RLF_OK);
     return world;
+}
+
+/* Its fit: thumb and index, and the other fingers beside the index. */
+static rlf_grid_hand fitted_hand(const grid_hand *seen)
+{
+    const rlf_vec3 beside = rlf_cross(seen->along, seen->across);
+    rlf_grid_hand hand = {.id = 1, .is_sure = true, .facing = seen->along};
+    hand.palm = rlf_mad(seen->place, seen->along, -0.09);
+    for (int32_t k = 0; k < RLF_GRID_HAND_CONES; k++) {
+        const int32_t digit = (k - 6) / 3, bone = (k - 6) % 3;
+        const double side = digit == 0 ? -0.5 : 0.5, deep = digit > 1 ? 0.02 * (digit - 1) : 0.0;
+        const rlf_vec3 aside =
+            rlf_add(rlf_scale(seen->across, side * (seen->gap + 0.018)), rlf_scale(beside, deep));
+        hand.cones[k] = (rlf_round_cone){hand.palm, hand.palm, 0.015, 0.015};
+        if (k >= 6) {
+            const rlf_vec3 root = rlf_mad(rlf_add(hand.palm, aside), seen->along, 0.03 * bone);
+            hand.cones[k] = (rlf_round_cone){root, rlf_mad(root, seen->along, 0.03), 0.009, 0.009};
+        }
+    }
+    return hand;
 }
 
 static double ramp(double t, double begin, double end)
@@ -68,7 +89,10 @@ static void run_grasp(const grasp *g)
         hand.gap = g->width - 0.002 + 0.06 * open;
         hand.closing = 0.06 * (open - open_before) / FRAME;
         hand.noise = g->noise;
+        const rlf_grid_hand fitted = fitted_hand(&hand);
         grid_hand_see(fixture, &hand, frame);
+        fixture->grid.hands = &fitted;
+        fixture->grid.hand_count = g->is_fit ? 1 : 0;
         rlf_world_advance(world, &fixture->grid, FRAME);
         const rlf_body_state *body = state_of(world);
         rlf_vec3 now = rlf_sub(body->T_world_body.p, hand.place);
@@ -99,9 +123,10 @@ static void hands_lift_carry_and_let_go(void **state)
     const rlf_shape large = {.type = RLF_SHAPE_BOX, .size = {0.12, 0.12, 0.12}};
     const rlf_vec3 down = {0, 1, 0}, right = {1, 0, 0}, away = {0, 0, 1};
     const grasp all[] = {
-        {"from above, noisy", down, right, cube, 0.06, 0.0015},
-        {"from above, thumb before it", down, away, cube, 0.06, 0.0015},
-        {"large, from above", down, right, large, 0.12, 0.0015},
+        {"from above, noisy", down, right, cube, 0.06, 0.0015, false},
+        {"from above, noisy, fitted", down, right, cube, 0.06, 0.0015, true},
+        {"from above, thumb before it", down, away, cube, 0.06, 0.0015, true},
+        {"large, from above", down, right, large, 0.12, 0.0015, false},
     };
     for (size_t i = 0; i < sizeof(all) / sizeof(all[0]); i++) {
         run_grasp(&all[i]);
@@ -131,26 +156,6 @@ static void what_pushes_does_not_hold(void **state)
     grid_fixture_destroy(&fixture);
 }
 
-/* Thumb and index of a fitted hand, their tips `gap` apart about `place`; the other fingers beside
- * the index. Fingers point down. */
-static rlf_grid_hand fitted_hand(rlf_vec3 place, double gap)
-{
-    rlf_grid_hand hand = {.id = 1, .is_sure = true, .facing = {0, 1, 0}};
-    hand.palm = rlf_add(place, rlf_vec3_make(0, -0.09, 0));
-    for (int32_t k = 0; k < RLF_GRID_HAND_CONES; k++) {
-        const int32_t digit = (k - 6) / 3, bone = (k - 6) % 3;
-        const double side = digit == 0 ? -0.5 : 0.5, deep = digit > 1 ? 0.02 * (digit - 1) : 0.0;
-        const double x = side * (gap + 0.018);
-        hand.cones[k] = (rlf_round_cone){hand.palm, hand.palm, 0.015, 0.015};
-        if (k >= 6) {
-            hand.cones[k] = (rlf_round_cone){
-                rlf_add(place, rlf_vec3_make(x, -0.09 + 0.03 * bone, deep)),
-                rlf_add(place, rlf_vec3_make(x, -0.06 + 0.03 * bone, deep)), 0.009, 0.009};
-        }
-    }
-    return hand;
-}
-
 /* One finger alone is seen; the fit knows the thumb. */
 static int32_t frames_held(bool closes, bool *is_let_go)
 {
@@ -171,7 +176,7 @@ static int32_t frames_held(bool closes, bool *is_let_go)
         hand.velocity = rlf_vec3_make(is_aside ? 0.25 : 0.0, is_up ? -0.25 : 0.0, 0);
         hand.gap = 0.048 + (closes ? 0.06 * open : 0.0);
         hand.place = closes || t > 0.5 ? hand.place : rlf_mad(hand.place, hand.across, t - 0.5);
-        const rlf_grid_hand fitted = fitted_hand(hand.place, hand.gap);
+        const rlf_grid_hand fitted = fitted_hand(&hand);
         grid_hand_see(fixture, &hand, frame);
         fixture->grid.hands = &fitted;
         fixture->grid.hand_count = 1;

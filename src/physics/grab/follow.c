@@ -157,24 +157,10 @@ bool grab_follow_hand(const grid_query *query, phys_grab *grab, double dt)
         (void)math_rigid_solve(&fit.sums, 0.0, step);
         move(&T, step);
     }
+    grab->alike = fit.sums.weight / (grab->point_count + grab->rim_count);
     rlf_pose T_world_hand = rlf_pose_mul(&grid->T_world_grid, &T);
     grab->v = rlf_scale(rlf_sub(T_world_hand.p, grab->T_world_hand.p), 1.0 / dt);
     grab->w = turn_between(grab->T_world_hand.q, T_world_hand.q, dt);
     grab->T_world_hand = T_world_hand;
     return true;
-}
-
-bool grab_is_seen_through(const grid_query *query, const phys_grab *grab, rlf_vec3 place,
-                          double tolerance)
-{
-    const rlf_grid *grid = query->grid;
-    const rlf_grid_sheet *sheet = &grid->foreground;
-    rlf_vec3 p = rlf_transform(&query->T_grid_world, rlf_transform(&grab->T_world_hand, place));
-    int32_t x, y;
-    if (!grid_pixel_of(grid, p, &x, &y)) {
-        return false;
-    }
-    int32_t i = y * grid->width + x;
-    bool is_there = (sheet->mask == NULL || sheet->mask[i] != 0) && sheet->depth[i] > 0.0f;
-    return !is_there || (double)sheet->depth[i] > p.z + tolerance;
 }

@@ -126,7 +126,7 @@ static bool is_in_cone(rlf_vec3 normal, rlf_vec3 along)
     return rlf_dot(normal, along) >= CONE_COS * rlf_length(normal) * rlf_length(along);
 }
 
-grab_bin grab_side(const grab_front *front, rlf_vec3 axis, double sign)
+static grab_bin side_of(const grab_front *front, rlf_vec3 axis, double sign)
 {
     grab_bin sum = {.off = 1.0};
     for (int32_t i = 0; i < GRAB_BINS; i++) {
@@ -156,8 +156,8 @@ static bool try_pair(const grab_front *front, int32_t i, int32_t k, grab_grip *o
         return false;
     }
     out->axis = rlf_normalize(rlf_sub(b, a));
-    out->sides[0] = grab_side(front, out->axis, -1.0);
-    out->sides[1] = grab_side(front, out->axis, 1.0);
+    out->sides[0] = side_of(front, out->axis, -1.0);
+    out->sides[1] = side_of(front, out->axis, 1.0);
     return is_in_cone(out->axis, rlf_sub(out->sides[1].point, out->sides[0].point));
 }
 

@@ -15,21 +15,25 @@
 /* A body that was let go is not taken again for so long, s. */
 #define COOL_S 0.3
 #define HAND_POINTS_MIN 12
-/* Without a sure fit for so long pixels tell whether the hand has opened, s. */
+/* So long a fit's velocity is worth something, s. */
 #define UNSURE_S 0.3
-/* Of pixels: frames in a row in which they grip, and in which a side is seen to be gone. */
-#define GRIP_FRAMES 2
+/* A hand that opens looks another way at once: by this share, in so many frames. */
+#define OTHER_SHARE 0.5
+#define OTHER_FRAMES 2
+/* By less than this it has not moved a finger, whatever its fit says. */
+#define CHANGED_SHARE 0.85
+/* Where no fit is sure: of the pixels that touched, fewer than this share do, in so many. */
+#define OPEN_SHARE 0.35
 #define OPEN_FRAMES 4
+/* Of pixels: frames in a row in which they grip. */
+#define GRIP_FRAMES 2
 /* Sides that move apart, or past each other, faster are no grip, m/s. */
 #define APART_SPEED 0.15
 #define PAST_SPEED 0.3
 /* A body that passes the sides faster is not held by them yet, m/s. */
 #define CATCH_SPEED 0.25
-/* Of the pixels that touched, fewer than this share still do: the hand is open. */
-#define OPEN_SHARE 0.35
 /* Of what is seen, so much is believed in one frame: a share. */
 #define SETTLE 0.05
-#define KEEP_PIXELS 2.0
 
 /* Whether the two sides move as one hand that does not open, and the body with it. */
 static bool moves_as_one(const grab_grip *grip, rlf_vec3 body_v)
@@ -72,6 +76,14 @@ static phys_grab *begin(rlf_world *world, const grid_query *query, phys_body *bo
     return grab;
 }
 
+/* How many pixels touch the body in its hand. */
+static double weight_of(const grid_query *query, const phys_body *body, const phys_grab *grab)
+{
+    grab_front front;
+    grab_look(query, body, &grab->T_world_hand, 0.0, grab_tolerance(query, body->x), &front);
+    return front.weight + front.deep;
+}
+
 /* Where no hand is sure. */
 static void seek_front(rlf_world *world, const grid_query *query, phys_body *body)
 {
@@ -90,10 +102,7 @@ static void seek_front(rlf_world *world, const grid_query *query, phys_body *bod
     phys_grab *grab = begin(world, query, body, rlf_rotate(body->q, rlf_scale(flow, 0.5)));
     if (grab != NULL) {
         grab->kind = GRAB_PIXELS;
-        grab->axis = grip.axis;
-        grab->ends[0] = grip.sides[0].point;
-        grab->ends[1] = grip.sides[1].point;
-        grab->weight = front.weight + front.deep;
+        grab->weight = weight_of(query, body, grab);
     }
 }
 
@@ -106,10 +115,7 @@ static void take(rlf_world *world, const grid_query *query, phys_body *body,
         rlf_add(grab_hand_of(world, a->id)->velocity, grab_hand_of(world, b->id)->velocity);
     phys_grab *grab = begin(world, query, body, rlf_scale(v, 0.5));
     if (grab != NULL) {
-        grab_front front;
-        const rlf_pose pose = phys_body_pose(body);
-        grab_look(query, body, &pose, query->tau, grab_tolerance(query, body->x), &front);
-        grab->weight = front.weight + front.deep;
+        grab->weight = weight_of(query, body, grab);
         body->grasp_votes = 0;
         grab->kind = reason->kind;
         grab->hands[0] = a->id;
@@ -145,34 +151,6 @@ static void seek(rlf_world *world, const grid_query *query, phys_body *body)
     }
 }
 
-/* Whether the hand is seen to be open: much less of it touches than when it closed, or nothing on
- * one side, and the camera sees beyond where that was. */
-static bool is_front_open(const grid_query *query, phys_grab *grab, const grab_front *front)
-{
-    double weight = front->weight + front->deep;
-    double tolerance = GRID_NOISE_M + grab_tolerance(query, grab->T_world_hand.p);
-    bool has_left = weight < OPEN_SHARE * grab->weight;
-    for (int32_t side = 0; side < 2 && grab->kind == GRAB_PIXELS; side++) {
-        grab_bin patch = grab_side(front, grab->axis, side == 0 ? -1.0 : 1.0);
-        if (patch.weight >= KEEP_PIXELS) {
-            grab->ends[side] = rlf_add(grab->seat, patch.point);
-        } else if (grab_is_seen_through(query, grab, grab->ends[side], tolerance)) {
-            has_left = true;
-        }
-    }
-    grab->weight += has_left ? 0.0 : SETTLE * (weight - grab->weight);
-    return has_left;
-}
-
-/* The body settles in the middle between its two sides, where both touch. */
-static void settle(phys_grab *grab, const grab_front *front)
-{
-    grab_bin a = grab_side(front, grab->axis, -1.0), b = grab_side(front, grab->axis, 1.0);
-    if (grab->kind == GRAB_PIXELS && rlf_min(a.weight, b.weight) >= KEEP_PIXELS) {
-        grab->seat = rlf_mad(grab->seat, grab->axis, SETTLE * 0.5 * (b.off - a.off));
-    }
-}
-
 static void note_past(phys_grab *grab)
 {
     for (int32_t i = GRAB_PAST - 1; i > 0; i--) {
@@ -182,19 +160,6 @@ static void note_past(phys_grab *grab)
     grab->past_v[0] = grab->v;
     grab->past_w[0] = grab->w;
     grab->past_count += grab->past_count < GRAB_PAST;
-}
-
-/* Whether pixels alone say that the hand has opened. */
-static bool has_front_opened(const grid_query *query, const phys_body *body, phys_grab *grab)
-{
-    grab_front front;
-    rlf_pose pose = grab->T_world_hand;
-    pose.p = rlf_transform(&grab->T_world_hand, grab->seat);
-    grab_look(query, body, &pose, 0.0, grab_tolerance(query, pose.p), &front);
-    const bool is_open = is_front_open(query, grab, &front);
-    settle(grab, &front);
-    grab->open_frames = is_open ? grab->open_frames + 1 : 0;
-    return grab->open_frames >= OPEN_FRAMES;
 }
 
 /* The hand that holds it by its pixels is known by now: its bends tell more. */
@@ -207,7 +172,6 @@ static void recognise(const rlf_world *world, const grid_query *query, const phy
         if (touches.is_in[k] && grab->kind == GRAB_PIXELS) {
             grab->kind = GRAB_OPPOSE;
             grab->hands[0] = query->grid->hands[k].id;
-            grab->open_frames = 0;
             grab_begin_hold(world, grab);
         }
     }
@@ -230,29 +194,63 @@ static bool go_on(const rlf_world *world, const grid_query *query, phys_body *bo
     return grab->lost_frames < LOST_FRAMES;
 }
 
+/* Whether the hand looks as if it had opened: another way at once, or where no fit is sure, much
+ * less of it touches. */
+static bool looks_open(const grid_query *query, const phys_body *body, phys_grab *grab,
+                       bool is_known)
+{
+    const bool was_seen = grab->past_count == GRAB_PAST;
+    bool is_open = was_seen && grab->alike < OTHER_SHARE * grab->usual;
+    grab->has_changed = was_seen && grab->alike < CHANGED_SHARE * grab->usual;
+    const double share = grab->has_changed ? SETTLE : 4.0 * SETTLE;
+    grab->usual = was_seen ? grab->usual + share * (grab->alike - grab->usual) : grab->alike;
+    if (!is_known) {
+        const double weight = weight_of(query, body, grab);
+        is_open = is_open || (grab->has_changed && weight < OPEN_SHARE * grab->weight);
+        grab->weight += is_open ? 0.0 : SETTLE * (weight - grab->weight);
+    }
+    grab->open_frames = is_open ? grab->open_frames + 1 : 0;
+    return is_open;
+}
+
+/* What a hand that opens holds flies on. */
+static void fly_on(phys_grab *grab, rlf_pose before, double dt)
+{
+    grab->v = grab->past_v[0];
+    grab->w = grab->past_w[0];
+    grab->T_world_hand = before;
+    grab->T_world_hand.p = rlf_mad(before.p, grab->v, dt);
+}
+
 /* Whether the hand holds on. */
 static bool hold(const rlf_world *world, const grid_query *query, phys_body *body, double dt)
 {
     phys_grab *grab = body->grab;
+    const rlf_pose before = grab->T_world_hand;
     const struct phys_grab_hand *hand = grab_hand_of(world, grab->hands[0]);
     if (!grab_follow_hand(query, grab, dt)) {
         return go_on(world, query, body, hand, dt);
     }
     grab->lost_frames = 0;
+    const bool is_known = hand != NULL && world->time - hand->sure < UNSURE_S;
+    const bool is_open = grab->kind != GRAB_CARRY && looks_open(query, body, grab, is_known);
+    const bool has_opened = grab->kind != GRAB_PIXELS && grab_has_opened(world, grab);
+    if (is_open && grab->past_count > 0) {
+        fly_on(grab, before, dt);
+    } else if ((grab->open_votes & 1u) == 0) {
+        note_past(grab);
+    }
+    if (grab->past_count < GRAB_PAST) { /* it may still be closing */
+        grab_learn_hand(query, body, grab);
+    }
     if (grab->kind == GRAB_PIXELS) {
         recognise(world, query, body, grab);
     }
-    const bool is_known =
-        grab->kind == GRAB_CARRY || (hand != NULL && world->time - hand->sure < UNSURE_S);
-    const bool has_opened = (grab->kind != GRAB_PIXELS && grab_has_opened(world, grab)) ||
-                            (!is_known && has_front_opened(query, body, grab));
-    if (grab->open_frames == 0 && (grab->open_votes & 1u) == 0) {
-        note_past(grab);
-    }
     /* What does not come along is held by something stronger. */
-    const rlf_vec3 place = rlf_transform(&grab->T_world_hand, grab->seat);
-    const double left = rlf_length(rlf_sub(place, body->x)) - rlf_length(grab->v) * dt;
-    return !has_opened && left < body->shape.radius;
+    const rlf_vec3 off = rlf_sub(grab->T_world_hand.p, body->x);
+    const double left = rlf_length(off) - rlf_length(grab->v) * dt;
+    const int32_t frames = is_known ? OTHER_FRAMES : OPEN_FRAMES;
+    return !has_opened && grab->open_frames < frames && left < body->shape.radius;
 }
 
 void phys_grab_update(rlf_world *world, const grid_query *query, double dt)
@@ -328,7 +326,7 @@ void phys_grab_pull(const rlf_world *world, phys_body *body)
 {
     const phys_grab *grab = body->grab;
     double tau = rlf_clamp(world->views[0].tau, -1.0, 0.1);
-    rlf_vec3 place = rlf_mad(rlf_transform(&grab->T_world_hand, grab->seat), grab->v, tau);
+    rlf_vec3 place = rlf_mad(grab->T_world_hand.p, grab->v, tau);
     rlf_quat turn = rlf_quat_from_rotation_vector(rlf_scale(grab->w, tau));
     turn = rlf_quat_mul(rlf_quat_mul(turn, grab->T_world_hand.q), rlf_quat_conjugate(body->q));
     double sign = turn.w < 0.0 ? -2.0 : 2.0;

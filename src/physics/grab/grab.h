@@ -66,14 +66,13 @@ struct phys_grab {
     rlf_vec3 up;           /* hand frame: against gravity at the grab */
     rlf_pose T_world_hand; /* when the newest grid was seen */
     rlf_vec3 v, w;         /* of the hand then, world */
-    rlf_vec3 ends[2];      /* of pixels: where the two sides touched last, hand frame */
-    rlf_vec3 axis;         /* of pixels: unit, from the first to the second, hand frame */
     rlf_vec3 past_v[GRAB_PAST], past_w[GRAB_PAST]; /* the newest first */
     int32_t past_count;
-    rlf_vec3 seat;       /* of pixels: where the body sits between the sides, hand frame */
-    double weight;       /* pixels that touch while it is closed, smoothed */
-    int32_t open_frames; /* in a row in which little of the hand touched */
-    int32_t lost_frames; /* ... in which the hand was not found */
+    double alike, usual; /* 0..1: how much of the hand looks as it did; the same, smoothed */
+    bool has_changed;    /* ... and now it does not */
+    double weight;       /* of pixels: how many touch while it is closed, smoothed */
+    int32_t open_frames; /* in a row in which it looked another way, or little of it touched */
+    int32_t lost_frames; /* ... in which it was not found */
     int32_t point_count, rim_count;
     rlf_vec3 points[GRAB_POINTS_MAX]; /* hand frame */
     grab_rim rims[GRAB_RIMS_MAX];
@@ -146,9 +145,6 @@ void grab_look(const struct grid_query *query, const phys_body *body, const rlf_
 /* The two sides with the most pixels that hold by friction; false when there are none. */
 bool grab_find_grip(const grab_front *front, grab_grip *out);
 
-/* The mean of the pixels on one side of a known axis. */
-grab_bin grab_side(const grab_front *front, rlf_vec3 axis, double sign);
-
 /* Notes how the grid's hands are bent. */
 void grab_note_hands(rlf_world *world, const struct grid_query *query);
 /* NULL when it is not remembered. */
@@ -169,10 +165,6 @@ void grab_learn_hand(const struct grid_query *query, const phys_body *body, phys
 /* Moves the hand's frame to where the grid shows the hand dt seconds later. False when it is not
  * found. */
 bool grab_follow_hand(const struct grid_query *query, phys_grab *grab, double dt);
-
-/* Whether the camera sees beyond this place of the hand's frame, so that nothing is there. */
-bool grab_is_seen_through(const struct grid_query *query, const phys_grab *grab, rlf_vec3 place,
-                          double tolerance);
 
 /* A new grid: bodies are grabbed, follow their hands and are let go. */
 void phys_grab_update(rlf_world *world, const struct grid_query *query, double dt);

@@ -18,6 +18,7 @@
 #define APART_M 0.025       /* two palms farther than at the grab */
 #define VOTES 4             /* of the last VOTES_OF sure frames */
 #define VOTES_OF 6
+#define VOTES_UNSEEN 10 /* all of so many where the hand looks as before: a digit is hidden */
 
 static bool is_opposed(const grab_touch *a, const grab_touch *b)
 {
@@ -222,10 +223,12 @@ bool grab_has_opened(const rlf_world *world, phys_grab *grab)
     } else {
         is_open = bends_back(grab, &a->past[0]);
     }
-    grab->open_votes = (grab->open_votes << 1 | (is_open ? 1u : 0u)) & ((1u << VOTES_OF) - 1u);
+    const uint32_t all = (1u << VOTES_UNSEEN) - 1u;
+    grab->open_votes = (grab->open_votes << 1 | (is_open ? 1u : 0u)) & all;
     int32_t votes = 0;
     for (int32_t k = 0; k < VOTES_OF; k++) {
         votes += grab->open_votes >> k & 1u;
     }
-    return votes >= VOTES;
+    return (votes >= VOTES && (grab->has_changed || grab->kind == GRAB_BETWEEN)) ||
+           grab->open_votes == all;
 }
