@@ -1,5 +1,5 @@
 /* A hand's pixels by a flood from its palm, and the way back to them from every pixel beside. */
-#include "hands/crop.h"
+#include "hands/fit.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* Feet by gravity alone: a hand that rests on a table, or on the floor, has less of its body above
  * it than a leg carries, and the hand of who stands has the feet below it. */
-#include "hands/foot.h"
+#include "hands/limbs.h"
 
 /* Across gravity, from the foot: a wide step to the head, and what counts as lower. */
 #define BODY_WITHIN_M 0.7

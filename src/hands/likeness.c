@@ -1,5 +1,5 @@
 /* Limbs are told by their width, their length and what they hang on. */
-#include "hands/likeness.h"
+#include "hands/gesture.h"
 
 #define FORWARD_COS 0.6  /* of the forearm with the way to the camera: 53 degrees */
 #define FORWARD_SURE 0.8 /* of a hand whose forearm is hidden by it */

@@ -2,7 +2,7 @@
 #ifndef RLF_HANDS_PALM_H
 #define RLF_HANDS_PALM_H
 
-#include "hands/patch.h"
+#include "hands/limbs.h"
 
 typedef struct hand_palm {
     double x, y;           /* its centre, patch pixels */

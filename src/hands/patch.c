@@ -1,5 +1,5 @@
 /* Mask, holes and discs of a limb's end. */
-#include "hands/patch.h"
+#include "hands/limbs.h"
 
 #define PIXEL_M 0.0015   /* finer pixels tell nothing more of a hand */
 #define PIXELS_LEAST 24  /* of a hand */

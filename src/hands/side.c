@@ -1,6 +1,6 @@
 /* Left or right. An owner at the picture's border looks into it, an owner in the picture looks at
  * the camera: whoever turns the back to it is taken for the other way round. */
-#include "hands/side.h"
+#include "hands/limbs.h"
 
 #define BODY_NEAR_M 0.6 /* cells of one body are this close to where its arm leaves it */
 #define BODY_SIDE_M 0.1 /* a hand is at least so far from its body's middle */

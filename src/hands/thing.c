@@ -1,5 +1,5 @@
 /* A thing that is no hand: one bent surface, and a convex outline. */
-#include "hands/likeness.h"
+#include "hands/gesture.h"
 
 #include <string.h>
 

@@ -1,9 +1,8 @@
 /* The stage: from a surface to its hands. */
 #include "base/checks.h"
 #include "hands/follow.h"
-#include "hands/foot.h"
-#include "hands/likeness.h"
-#include "hands/side.h"
+#include "hands/limbs.h"
+#include "hands/gesture.h"
 
 #include <string.h>
 
