@@ -8,16 +8,12 @@
 #include "calibrate/seed.h"
 #include "eval/analytic.h"
 #include "relief/io.h"
+#include "test.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #define FOLDER "calibrate_pictures"
 #define PIXELS (320 * 240)
@@ -110,9 +106,8 @@ static void assert_refused(const calibrate_options *o, const char *word)
 static calibrate_model pairs_model; /* what test_pairs found */
 
 /* Both lenses and the motion come out as they are. */
-static void test_pairs(void **state)
+TEST_CASE(test_pairs)
 {
-    (void)state;
     if (!has_opencv()) {
         skip();
     }
@@ -150,9 +145,8 @@ static void mirror(const uint8_t *in, uint8_t *out)
 }
 
 /* A double, a mirrored picture, one cut off: each is left out with its reason, the rest is used. */
-static void test_bad_views_are_named(void **state)
+TEST_CASE(test_bad_views_are_named)
 {
-    (void)state;
     if (!has_opencv()) {
         skip();
     }
@@ -196,9 +190,8 @@ static void blur(const uint8_t *in, uint8_t *out, int radius)
     }
 }
 
-static void test_refusals(void **state)
+TEST_CASE(test_refusals)
 {
-    (void)state;
     if (!has_opencv()) {
         skip();
     }
@@ -229,9 +222,8 @@ static void test_refusals(void **state)
     assert_refused(&o, "not a folder");
 }
 
-static void test_blurred(void **state)
+TEST_CASE(test_blurred)
 {
-    (void)state;
     if (!has_opencv()) {
         skip();
     }
@@ -292,9 +284,8 @@ static calibrate_model wrong_model(void)
 }
 
 /* Exact corners give the cameras back exactly, from a start that is off; without OpenCV. */
-static void test_solve(void **state)
+TEST_CASE(test_solve)
 {
-    (void)state;
     const rlf_rig rig = board_rig();
     calibrate_views views;
     calibrate_model model = wrong_model();
@@ -311,9 +302,8 @@ static void test_solve(void **state)
 }
 
 /* The uncertainty that is told is the scatter over trials. */
-static void test_deviation(void **state)
+TEST_CASE(test_deviation)
 {
-    (void)state;
     const rlf_rig rig = board_rig();
     double squares = 0.0, told = 0.0;
     for (int trial = 0; trial < 30; trial++) {
@@ -331,9 +321,8 @@ static void test_deviation(void **state)
     assert_true(ratio > 0.7 && ratio < 1.4);
 }
 
-static void test_flat_poses_are_refused(void **state)
+TEST_CASE(test_flat_poses_are_refused)
 {
-    (void)state;
     calibrate_views views;
     calibrate_model model = wrong_model();
     calibrate_fit fit;
@@ -344,9 +333,8 @@ static void test_flat_poses_are_refused(void **state)
     calibrate_views_destroy(&views);
 }
 
-static void test_one_part_is_refused(void **state)
+TEST_CASE(test_one_part_is_refused)
 {
-    (void)state;
     calibrate_views views;
     calibrate_model model = wrong_model();
     calibrate_fit fit;
@@ -395,9 +383,8 @@ static void record_clip(double offset_m)
 }
 
 /* From a recording: still poses are picked, colour by corners, depth by the board's outline. */
-static void test_source(void **state)
+TEST_CASE(test_source)
 {
-    (void)state;
     if (!has_opencv()) {
         skip();
     }
@@ -420,9 +407,8 @@ static void test_source(void **state)
 
 /* Depth pictures beside the infrared ones give the depth offset; the cameras come out as in
  * test_pairs to the last bit. */
-static void test_depth_offset(void **state)
+TEST_CASE(test_depth_offset)
 {
-    (void)state;
     if (!has_opencv()) {
         skip();
     }
@@ -455,9 +441,8 @@ static void test_depth_offset(void **state)
 }
 
 /* A printed board says what it is; other files do not. */
-static void test_printed_board(void **state)
+TEST_CASE(test_printed_board)
 {
-    (void)state;
     make_folder(FOLDER);
     const char *const paths[] = {FOLDER "/board.pdf", FOLDER "/board.svg"};
     for (int i = 0; i < 4; i++) {
@@ -478,9 +463,8 @@ static void test_printed_board(void **state)
 }
 
 /* The floor is the lowest level face that is large, not the lowest pixel or the largest table. */
-static void test_floor_is_the_lowest(void **state)
+TEST_CASE(test_floor_is_the_lowest)
 {
-    (void)state;
     static calibrate_stand s = {.level = 1000};
     double below = 0.0;
     assert_false(calibrate_stand_floor(&s, &below));
@@ -496,21 +480,4 @@ static void test_floor_is_the_lowest(void **state)
     assert_true(fabs(below - 1.305) < 1e-9);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_solve),
-        cmocka_unit_test(test_deviation),
-        cmocka_unit_test(test_flat_poses_are_refused),
-        cmocka_unit_test(test_one_part_is_refused),
-        cmocka_unit_test(test_pairs),
-        cmocka_unit_test(test_bad_views_are_named),
-        cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_blurred),
-        cmocka_unit_test(test_source),
-        cmocka_unit_test(test_depth_offset),
-        cmocka_unit_test(test_printed_board),
-        cmocka_unit_test(test_floor_is_the_lowest),
-    };
-    return cmocka_run_group_tests(tests, draw_all, NULL);
-}
+TEST_GROUP(draw_all, NULL)

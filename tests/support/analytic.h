@@ -40,6 +40,25 @@ static inline double sphere_depth(rlf_vec3 centre, double radius, double x, doub
     return root < 0.0 ? 0.0 : (b - sqrt(root)) / a;
 }
 
+/* Where a ray from `from` along `way` enters a box and leaves it, in lengths of `way`; false when
+ * it misses, or only what is behind it. */
+static inline bool box_ray(const rlf_aabb *box, rlf_vec3 from, rlf_vec3 way, double *in,
+                           double *leave)
+{
+    const double f[3] = {from.x, from.y, from.z}, w[3] = {way.x, way.y, way.z};
+    const double low[3] = {box->min.x, box->min.y, box->min.z};
+    const double high[3] = {box->max.x, box->max.y, box->max.z};
+    *in = -1e9;
+    *leave = 1e9;
+    for (int k = 0; k < 3; k++) {
+        const double by = w[k] > -1e-12 && w[k] < 1e-12 ? 1e-12 : w[k];
+        const double a = (low[k] - f[k]) / by, b = (high[k] - f[k]) / by;
+        *in = rlf_max(*in, rlf_min(a, b));
+        *leave = rlf_min(*leave, rlf_max(a, b));
+    }
+    return *in<*leave && * leave> 0.0;
+}
+
 /* xorshift64* (Vigna 2016) and the sum of 12 uniforms: about normal, no library needed. */
 typedef struct analytic_random {
     uint64_t state;

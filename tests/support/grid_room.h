@@ -81,9 +81,8 @@ static inline grid_room_way grid_room_run(rlf_border border, const rlf_body_def 
     world_def.border = border;
     world_def.body_capacity = 1;
     world_def.gravity.y *= grid_room_down;
-    rlf_world *world = NULL;
-    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
-    assert_int_equal(rlf_world_add_body(world, def, NULL), RLF_OK);
+    rlf_world *world = world_of(&world_def);
+    add_body(world, def);
     for (int k = 0; k < frames && way.is_there; k++) {
         grid_room->grid.time_ns++;
         rlf_world_advance(world, &grid_room->grid, GRID_ROOM_FRAME);

@@ -1,7 +1,7 @@
 /* The published background: made a few tiles a frame, it is what one made at once would be. */
 
-#include "analytic.h"
 #include "heavy.h"
+#include "seen_view.h"
 #include "surface/objects/objects.h"
 #include "surface/steps.h"
 #include "test.h"
@@ -14,8 +14,7 @@ static rlf_reconstruct *make_stage(void)
 {
     rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
-    rlf_reconstruct *stage = NULL;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    rlf_reconstruct *stage = stage_of(&def);
     assert_int_equal(background_image_tiles(&stage->grid), TILES);
     return stage;
 }
@@ -35,8 +34,7 @@ static const rlf_surface *step(rlf_reconstruct *stage, analytic_random *random, 
     }
     rlf_frame frame = analytic_frame(rig, depth, number);
     frame.rig = NULL;
-    const rlf_surface *s = NULL;
-    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+    const rlf_surface *s = surface_of(stage, &frame);
     return s;
 }
 
@@ -48,9 +46,8 @@ static double agreement(const rlf_surface *s, float *const whole[3], int32_t i)
     return rlf_length(a) == 0.0 && rlf_length(b) == 0.0 ? 1.0 : rlf_dot(a, b);
 }
 
-static void tiles_make_the_same_normals_as_the_whole(void **state)
+TEST_CASE(tiles_make_the_same_normals_as_the_whole)
 {
-    (void)state;
     rlf_reconstruct *stage = make_stage();
     stage->def.enable_edge_normals = false; /* those of the frames are not the model's */
     analytic_random random = {5};
@@ -71,9 +68,8 @@ static void tiles_make_the_same_normals_as_the_whole(void **state)
 }
 
 /* The first image is the mean of five frames; the last one of many. */
-static void means_get_better_without_a_change(void **state)
+TEST_CASE(means_get_better_without_a_change)
 {
-    (void)state;
     if (!heavy_is_whole()) {
         skip(); /* the other tests run the same code */
     }
@@ -104,9 +100,8 @@ static int32_t tiles_made(const rlf_reconstruct *stage, const int32_t *before)
 }
 
 /* The whole room steps back: everything is replaced, soon, but not in one frame. */
-static void no_frame_makes_more_than_its_share(void **state)
+TEST_CASE(no_frame_makes_more_than_its_share)
 {
-    (void)state;
     rlf_reconstruct *stage = make_stage();
     analytic_random random = {7};
     for (int t = 0; t < 90; t++) {
@@ -132,9 +127,8 @@ static void no_frame_makes_more_than_its_share(void **state)
 
 /* The regions of a image cost as much as all its tiles: no frame finds them all, nor makes tiles
  * beside a part of that. Only what leaves is shown at once. */
-static void regions_take_several_frames(void **state)
+TEST_CASE(regions_take_several_frames)
 {
-    (void)state;
     rlf_reconstruct *stage = make_stage();
     const rlf_background *background = &stage->background;
     analytic_random random = {11};
@@ -165,9 +159,8 @@ static double sum_of(const rlf_surface *s)
 }
 
 /* Tiles are made in a image that no valid surface shows. */
-static void valid_surfaces_keep_their_background(void **state)
+TEST_CASE(valid_surfaces_keep_their_background)
 {
-    (void)state;
     if (!heavy_is_whole()) {
         skip(); /* the other tests run the same code */
     }
@@ -187,9 +180,8 @@ static void valid_surfaces_keep_their_background(void **state)
 }
 
 /* Early on, something small leaves: one tile changes, and the others stay in the new image. */
-static void one_tile_changes_alone(void **state)
+TEST_CASE(one_tile_changes_alone)
 {
-    (void)state;
     rlf_reconstruct *stage = make_stage();
     analytic_random random = {9};
     const rlf_vec3 left = {0.6, 0.0, -0.8}, right = {-0.6, 0.0, -0.8};
@@ -208,8 +200,7 @@ static void one_tile_changes_alone(void **state)
         rlf_frame frame = analytic_frame(rig, depth, t);
         frame.rig = NULL;
         int32_t newest = stage->background.newest;
-        const rlf_surface *s = NULL;
-        assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+        const rlf_surface *s = surface_of(stage, &frame);
         images += stage->background.newest != newest;
         for (int i = 0; i < COUNT && s->background_state == RLF_BACKGROUND_READY; i++) {
             assert_true(s->background_depth[i] > 0.0f);
@@ -220,9 +211,8 @@ static void one_tile_changes_alone(void **state)
 }
 
 /* In each frame one of three small patches steps back: that must not keep the others waiting. */
-static void a_sheet_is_finished_while_something_changes(void **state)
+TEST_CASE(a_sheet_is_finished_while_something_changes)
 {
-    (void)state;
     enum { SIDE = 6 };
     rlf_reconstruct *stage = make_stage();
     const rlf_rig *rig = &stage->def.rig;
@@ -238,24 +228,9 @@ static void a_sheet_is_finished_while_something_changes(void **state)
         rlf_frame frame = analytic_frame(rig, depth, t);
         frame.rig = NULL;
         int32_t newest = stage->background.newest;
-        const rlf_surface *s = NULL;
-        assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+        surface_of(stage, &frame);
         images += stage->background.newest != newest;
     }
     assert_true(images >= 4); /* one of five frames, and better ones */
     rlf_reconstruct_destroy(&stage);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tiles_make_the_same_normals_as_the_whole),
-        cmocka_unit_test(means_get_better_without_a_change),
-        cmocka_unit_test(no_frame_makes_more_than_its_share),
-        cmocka_unit_test(regions_take_several_frames),
-        cmocka_unit_test(valid_surfaces_keep_their_background),
-        cmocka_unit_test(one_tile_changes_alone),
-        cmocka_unit_test(a_sheet_is_finished_while_something_changes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

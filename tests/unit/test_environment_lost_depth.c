@@ -125,9 +125,8 @@ static int tear_down(void **state)
 }
 
 /* A black print that returns no light belongs to what is around it, whatever its colour. */
-static void a_hole_in_a_thing_is_the_thing(void **state)
+TEST_CASE(a_hole_in_a_thing_is_the_thing)
 {
-    (void)state;
     sense(0);
     for (int32_t i = 0; i < PIXELS; i++) {
         if (is_disc(i, 14.0)) {
@@ -139,9 +138,8 @@ static void a_hole_in_a_thing_is_the_thing(void **state)
 }
 
 /* Between two surfaces each pixel goes the way of its colours. */
-static void colours_part_a_band_without_depth(void **state)
+TEST_CASE(colours_part_a_band_without_depth)
 {
-    (void)state;
     sense(0);
     int32_t lost = 0;
     for (int32_t i = 0; i < PIXELS; i++) {
@@ -154,9 +152,8 @@ static void colours_part_a_band_without_depth(void **state)
 }
 
 /* Of a camera that has no depth there, 12 columns wide; a thing goes on up to the border. */
-static void a_thing_goes_on_into_the_rim(void **state)
+TEST_CASE(a_thing_goes_on_into_the_rim)
 {
-    (void)state;
     sense(60);
     for (int32_t i = 0; i < PIXELS; i++) {
         if (i % WIDTH < 12) {
@@ -167,9 +164,8 @@ static void a_thing_goes_on_into_the_rim(void **state)
 }
 
 /* A floor that goes down to the lower border, and is not seen in its last 12 rows. */
-static void a_plane_goes_on_into_the_rim(void **state)
+TEST_CASE(a_plane_goes_on_into_the_rim)
 {
-    (void)state;
     static float up[PIXELS];
     sense(0);
     for (int32_t i = 0; i < PIXELS; i++) {
@@ -188,9 +184,8 @@ static void a_plane_goes_on_into_the_rim(void **state)
 }
 
 /* Someone before a void that returns nothing does not fill it. */
-static void a_void_is_not_filled(void **state)
+TEST_CASE(a_void_is_not_filled)
 {
-    (void)state;
     sense(0);
     for (int32_t i = 0; i < PIXELS; i++) {
         s.truth[i] = is_disc(i, 30.0) ? NEAR_Z : 0.0f;
@@ -209,9 +204,8 @@ static float shown_depth(int32_t i)
 }
 
 /* As light in stripes has it: beside an edge depth comes and goes, and edges shift by a pixel. */
-static void nothing_flickers_while_nothing_moves(void **state)
+TEST_CASE(nothing_flickers_while_nothing_moves)
 {
-    (void)state;
     static float before[PIXELS];
     const rlf_plane_u8 no_state = {NULL, WIDTH, HEIGHT, WIDTH};
     int32_t changes = 0;
@@ -240,13 +234,4 @@ static void nothing_flickers_while_nothing_moves(void **state)
     assert_true(changes <= 30 * 5 * PIXELS / 76800);
 }
 
-int main(void)
-{
-#define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
-    const struct CMUnitTest tests[] = {
-        TEST(a_hole_in_a_thing_is_the_thing), TEST(colours_part_a_band_without_depth),
-        TEST(a_thing_goes_on_into_the_rim),   TEST(a_plane_goes_on_into_the_rim),
-        TEST(a_void_is_not_filled),           TEST(nothing_flickers_while_nothing_moves),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(set_up, tear_down)

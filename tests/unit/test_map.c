@@ -2,6 +2,7 @@
  * what leaves is carved; wrong poses are refused or taken back; memory is bounded. */
 
 #include "map_room.h"
+#include "created.h"
 #include "test.h"
 
 static map_room room;
@@ -9,8 +10,7 @@ static map_room room;
 static rlf_map *fused(int32_t count)
 {
     rlf_map_def def = map_room_def(&room);
-    rlf_map *map = NULL;
-    assert_int_equal(rlf_map_create(&def, &map), RLF_OK);
+    rlf_map *map = map_of(&def);
     map_room_fuse(&room, map, count);
     return map;
 }
@@ -51,9 +51,8 @@ static void check_distances(const rlf_map *map, double most_mean_m)
     assert_true(angle / count > 0.99);
 }
 
-static void distances_and_gradients_are_those_of_the_room(void **state)
+TEST_CASE(distances_and_gradients_are_those_of_the_room)
 {
-    (void)state;
     rlf_map *map = fused(12);
     check_distances(map, 0.001);
     assert_int_equal(rlf_map_sample(map, rlf_vec3_make(0, 0, 3.0)).state, RLF_MAP_UNKNOWN);
@@ -63,9 +62,8 @@ static void distances_and_gradients_are_those_of_the_room(void **state)
     assert_null(map);
 }
 
-static void a_bent_lens_gives_the_same_room(void **state)
+TEST_CASE(a_bent_lens_gives_the_same_room)
 {
-    (void)state;
     map_room_bend(&room);
     rlf_map *map = fused(12);
     check_distances(map, 0.001);
@@ -73,9 +71,8 @@ static void a_bent_lens_gives_the_same_room(void **state)
 }
 
 /* From a pose that was not fused. */
-static void a_prediction_is_what_is_there(void **state)
+TEST_CASE(a_prediction_is_what_is_there)
 {
-    (void)state;
     rlf_map *map = fused(12);
     const rlf_pose T = {.p = rlf_vec3_make(0.03, 0.01, 0.06),
                         .q = rlf_quat_from_rotation_vector(rlf_vec3_make(0.02, -0.03, 0.05))};
@@ -134,17 +131,15 @@ static int32_t percent_predicted(rlf_map *map, const rlf_pose *T)
 }
 
 /* The wall lies right on voxels of each of these sizes; a pixel is 11 mm and more. */
-static void one_frame_is_enough_with_voxels_finer_than_pixels(void **state)
+TEST_CASE(one_frame_is_enough_with_voxels_finer_than_pixels)
 {
-    (void)state;
     const double voxels[] = {0.004, 0.01, 0.05};
     const double turns[] = {0.0, 0.6};
     room.has_ball = false;
     for (int32_t i = 0; i < 6; i++) {
         rlf_map_def def = map_room_def(&room);
         def.voxel_m = voxels[i % 3];
-        rlf_map *map = NULL;
-        assert_int_equal(rlf_map_create(&def, &map), RLF_OK);
+        rlf_map *map = map_of(&def);
         const rlf_pose T = {.q = rlf_quat_from_rotation_vector(rlf_vec3_make(0, turns[i / 3], 0))};
         const rlf_map_view view = map_room_look(&room, &T);
         assert_int_equal(rlf_map_integrate(map, &view, &T, NULL), RLF_OK);
@@ -157,9 +152,8 @@ static void one_frame_is_enough_with_voxels_finer_than_pixels(void **state)
     }
 }
 
-static void the_mesh_is_the_surface_and_has_no_cracks(void **state)
+TEST_CASE(the_mesh_is_the_surface_and_has_no_cracks)
 {
-    (void)state;
     rlf_map *map = fused(12);
     rlf_map_mesh mesh;
     assert_int_equal(rlf_map_mesh_create(map, 1, &mesh), RLF_OK);
@@ -208,9 +202,8 @@ static size_t ball_vertices(const rlf_map *map)
     return count;
 }
 
-static void what_leaves_is_carved(void **state)
+TEST_CASE(what_leaves_is_carved)
 {
-    (void)state;
     rlf_map *map = fused(40);
     const size_t before = ball_vertices(map);
     assert_true(before > 500);
@@ -223,12 +216,10 @@ static void what_leaves_is_carved(void **state)
     rlf_map_destroy(&map);
 }
 
-static void what_is_masked_is_not_fused(void **state)
+TEST_CASE(what_is_masked_is_not_fused)
 {
-    (void)state;
     rlf_map_def def = map_room_def(&room);
-    rlf_map *map = NULL;
-    assert_int_equal(rlf_map_create(&def, &map), RLF_OK);
+    rlf_map *map = map_of(&def);
     static uint8_t is_static[ROOM_PIXELS];
     for (int32_t i = 0; i < 8; i++) {
         const rlf_pose T = map_room_pose(i);
@@ -244,9 +235,8 @@ static void what_is_masked_is_not_fused(void **state)
     rlf_map_destroy(&map);
 }
 
-static void a_bad_pose_is_refused_and_a_wrong_one_is_taken_back(void **state)
+TEST_CASE(a_bad_pose_is_refused_and_a_wrong_one_is_taken_back)
 {
-    (void)state;
     rlf_map *map = fused(10);
     rlf_map_fence(map);
     map_bytes before = map_bytes_of(map);
@@ -280,14 +270,12 @@ static void a_bad_pose_is_refused_and_a_wrong_one_is_taken_back(void **state)
     rlf_map_destroy(&map);
 }
 
-static void memory_is_bounded_and_the_farthest_leave(void **state)
+TEST_CASE(memory_is_bounded_and_the_farthest_leave)
 {
-    (void)state;
     rlf_map_def def = map_room_def(&room);
     def.memory_mb = 8;
     def.voxel_m = 0.006;
-    rlf_map *map = NULL;
-    assert_int_equal(rlf_map_create(&def, &map), RLF_OK);
+    rlf_map *map = map_of(&def);
     rlf_map_change change;
     int32_t evicted = 0;
     for (int32_t i = 0; i < 24; i++) {
@@ -309,14 +297,12 @@ static void memory_is_bounded_and_the_farthest_leave(void **state)
 }
 
 /* What it leaves behind makes room for what the camera sees then. */
-static void a_frame_that_alone_fills_the_memory_does_not_stay(void **state)
+TEST_CASE(a_frame_that_alone_fills_the_memory_does_not_stay)
 {
-    (void)state;
     rlf_map_def def = map_room_def(&room);
     def.memory_mb = 8;
     def.voxel_m = 0.003;
-    rlf_map *map = NULL;
-    assert_int_equal(rlf_map_create(&def, &map), RLF_OK);
+    rlf_map *map = map_of(&def);
     rlf_map_change change;
     for (int32_t i = 0; i < 3; i++) {
         rlf_pose T = map_room_pose(0);
@@ -330,15 +316,13 @@ static void a_frame_that_alone_fills_the_memory_does_not_stay(void **state)
     rlf_map_destroy(&map);
 }
 
-static void the_number_of_threads_changes_nothing(void **state)
+TEST_CASE(the_number_of_threads_changes_nothing)
 {
-    (void)state;
     map_bytes bytes[2];
     for (int32_t i = 0; i < 2; i++) {
         rlf_map_def def = map_room_def(&room);
-        assert_int_equal(rlf_pool_create(1 + 2 * i, &def.pool), RLF_OK);
-        rlf_map *map = NULL;
-        assert_int_equal(rlf_map_create(&def, &map), RLF_OK);
+        def.pool = pool_of(1 + 2 * i);
+        rlf_map *map = map_of(&def);
         map_room_fuse(&room, map, 6);
         bytes[i] = map_bytes_of(map);
         rlf_map_destroy(&map);
@@ -349,9 +333,8 @@ static void the_number_of_threads_changes_nothing(void **state)
     rlf_free(bytes[1].data);
 }
 
-static void a_picture_without_depth_does_no_harm(void **state)
+TEST_CASE(a_picture_without_depth_does_no_harm)
 {
-    (void)state;
     rlf_map *map = fused(6);
     map_bytes before = map_bytes_of(map);
     for (int32_t i = 0; i < ROOM_PIXELS; i++) {
@@ -368,21 +351,4 @@ static void a_picture_without_depth_does_no_harm(void **state)
     rlf_map_destroy(&map);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(distances_and_gradients_are_those_of_the_room, set_up),
-        cmocka_unit_test_setup(a_bent_lens_gives_the_same_room, set_up),
-        cmocka_unit_test_setup(a_prediction_is_what_is_there, set_up),
-        cmocka_unit_test_setup(one_frame_is_enough_with_voxels_finer_than_pixels, set_up),
-        cmocka_unit_test_setup(the_mesh_is_the_surface_and_has_no_cracks, set_up),
-        cmocka_unit_test_setup(what_leaves_is_carved, set_up),
-        cmocka_unit_test_setup(what_is_masked_is_not_fused, set_up),
-        cmocka_unit_test_setup(a_bad_pose_is_refused_and_a_wrong_one_is_taken_back, set_up),
-        cmocka_unit_test_setup(memory_is_bounded_and_the_farthest_leave, set_up),
-        cmocka_unit_test_setup(a_frame_that_alone_fills_the_memory_does_not_stay, set_up),
-        cmocka_unit_test_setup(the_number_of_threads_changes_nothing, set_up),
-        cmocka_unit_test_setup(a_picture_without_depth_does_no_harm, set_up),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(set_up, NULL)

@@ -14,19 +14,15 @@ static rlf_vec3 thrown(rlf_vec3 from, rlf_vec3 velocity, double radius)
 {
     rlf_world_def world_def = small_world_def();
     world_def.gravity = rlf_vec3_make(0, 0, 0);
-    rlf_world *world = NULL;
-    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
+    rlf_world *world = world_of(&world_def);
     rlf_body_def def = rlf_body_def_default();
     def.shape = (rlf_shape){.type = RLF_SHAPE_SPHERE, .radius = radius};
     def.position = from;
     def.velocity = velocity;
     def.restitution = 0.8;
     def.friction = 0.0;
-    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
-    for (int i = 0; i < 15; i++) {
-        fixture->grid.time_ns++;
-        rlf_world_advance(world, &fixture->grid, 1.0 / 30);
-    }
+    add_body(world, &def);
+    advance_frames(world, &fixture->grid, 15, 1.0 / 30);
     rlf_vec3 v = rlf_world_get_snapshot(world)->bodies[0].velocity;
     rlf_world_destroy(&world);
     return v;
@@ -59,9 +55,8 @@ static void set_bulge(rlf_vec3 centre, double radius)
     fixture->grid.background.default_thickness = 0.3;
 }
 
-static void bounces_off_a_bulge_as_off_a_ball(void **state)
+TEST_CASE(bounces_off_a_bulge_as_off_a_ball)
 {
-    (void)state;
     const rlf_vec3 CENTRE = {0.1, 0.05, 2.4};
     for (int k = 0; k < 2; k++) {
         double radius = k == 0 ? 0.3 : 0.08;
@@ -146,9 +141,8 @@ static void throw_at_edge(rlf_vec3 edge, const rlf_vec3 faces[2], double worst[2
     }
 }
 
-static void bounces_squarely_off_an_edge_between_two_faces(void **state)
+TEST_CASE(bounces_squarely_off_an_edge_between_two_faces)
 {
-    (void)state;
     const rlf_vec3 edge = {0.011, 0, 2};
     const rlf_vec3 faces[2] = {{-0.8, 0, -0.6}, {0.6, 0, -0.8}};
     double sharp[2], blurred[2];
@@ -237,9 +231,8 @@ static double miss_at_corner(const turned_cube *cube, const double sign[2], int 
     return degrees_between(thrown(from, v, radius), turned_back(cube, from, v, radius));
 }
 
-static void bounces_off_a_cubes_corners_where_they_are(void **state)
+TEST_CASE(bounces_off_a_cubes_corners_where_they_are)
 {
-    (void)state;
     const turned_cube cube = make_cube(0.5);
     const double signs[3][2] = {{-1, -1}, {-1, 1}, {1, -1}}; /* in front, on the left, the right */
     double sum = 0.0;
@@ -257,9 +250,8 @@ static void bounces_off_a_cubes_corners_where_they_are(void **state)
 }
 
 /* The rim of a board that faces the camera: from 20 to 70 % of the radius beyond it. */
-static void bounces_off_a_rim_where_it_is(void **state)
+TEST_CASE(bounces_off_a_rim_where_it_is)
 {
-    (void)state;
     grid_plane wall = grid_wall(4);
     grid_fixture_set_room(fixture, &wall, 1);
     grid_fixture_set_slab(fixture, grid_wall(2), rlf_vec3_make(0, 0, 2), rlf_vec3_make(0.2, 0.3, 0),
@@ -278,9 +270,8 @@ static void bounces_off_a_rim_where_it_is(void **state)
 }
 
 /* Pixels are 10 cm apart on a floor 0.5 m below the camera and 4 m away: none may be missed. */
-static void bounces_off_a_floor_seen_at_a_low_angle(void **state)
+TEST_CASE(bounces_off_a_floor_seen_at_a_low_angle)
 {
-    (void)state;
     grid_plane room[2] = {grid_floor(0.5), grid_wall(6)};
     grid_fixture_set_room(fixture, room, 2);
     for (int i = 0; i < 40; i++) {
@@ -309,9 +300,8 @@ static void set_block(double side_x)
 }
 
 /* How thick the block is behind its side was not seen: no such back stands out of its front. */
-static void bounces_off_a_front_beside_a_slanted_side(void **state)
+TEST_CASE(bounces_off_a_front_beside_a_slanted_side)
 {
-    (void)state;
     set_block(-0.2);
     for (int i = 0; i < 20; i++) {
         rlf_vec3 from = {-0.23 - 0.01 * i, 0.02, 1.5};
@@ -321,9 +311,8 @@ static void bounces_off_a_front_beside_a_slanted_side(void **state)
 }
 
 /* A ball that comes from beyond the block's edge, and passes that without a touch. */
-static void bounces_off_a_front_behind_its_edge(void **state)
+TEST_CASE(bounces_off_a_front_behind_its_edge)
 {
-    (void)state;
     set_block(-0.2);
     double worst = 0.0;
     for (int i = 0; i < 20; i++) {
@@ -355,9 +344,8 @@ static void set_leg(double side_x)
 }
 
 /* Of a fast ball's way every second pixel is looked at: the side may be between them. */
-static void bounces_off_a_side_one_pixel_wide(void **state)
+TEST_CASE(bounces_off_a_side_one_pixel_wide)
 {
-    (void)state;
     const double radius = 0.02;
     const int count = heavy(400, 15);
     int off = 0;
@@ -415,9 +403,8 @@ static void add_noise(void)
 }
 
 /* A limb of 15 cm at 2.7 m from before. */
-static void bounces_off_a_noisy_bulge_that_moves(void **state)
+TEST_CASE(bounces_off_a_noisy_bulge_that_moves)
 {
-    (void)state;
     const rlf_vec3 centre = {0, 0, 2.7};
     const double LIMB = 0.15;
     set_thick(centre, LIMB);
@@ -457,9 +444,8 @@ static void set_limb(rlf_vec3 axis, double radius)
 
 /* Beside a limb's outline its pixels lie on one side of the place that is touched. It bends across
  * itself only. */
-static void bounces_off_a_limbs_flank(void **state)
+TEST_CASE(bounces_off_a_limbs_flank)
 {
-    (void)state;
     const rlf_vec3 AXIS = {0.1, 0, 2.6};
     const double LIMB = 0.05, BALL = 0.1;
     double sum = 0.0;
@@ -477,9 +463,8 @@ static void bounces_off_a_limbs_flank(void **state)
 }
 
 /* From behind, where the front is out of the ball's reach. */
-static void bounces_off_the_back_of_something_thick(void **state)
+TEST_CASE(bounces_off_the_back_of_something_thick)
 {
-    (void)state;
     const rlf_vec3 CENTRE = {0, 0, 2.4};
     const double BULGE = 0.25;
     grid_plane wall = grid_wall(4);
@@ -499,23 +484,4 @@ static void bounces_off_the_back_of_something_thick(void **state)
     memset(fixture->mask, 0, (size_t)GRID_W * GRID_H);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(bounces_off_a_bulge_as_off_a_ball, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(bounces_squarely_off_an_edge_between_two_faces, set_up,
-                                        tear_down),
-        cmocka_unit_test_setup_teardown(bounces_off_a_cubes_corners_where_they_are, set_up,
-                                        tear_down),
-        cmocka_unit_test_setup_teardown(bounces_off_a_rim_where_it_is, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(bounces_off_a_front_beside_a_slanted_side, set_up,
-                                        tear_down),
-        cmocka_unit_test_setup_teardown(bounces_off_a_front_behind_its_edge, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(bounces_off_a_floor_seen_at_a_low_angle, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(bounces_off_a_side_one_pixel_wide, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(bounces_off_a_noisy_bulge_that_moves, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(bounces_off_a_limbs_flank, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(bounces_off_the_back_of_something_thick, set_up, tear_down),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(set_up, tear_down)

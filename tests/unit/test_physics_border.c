@@ -38,9 +38,8 @@ static bool throw_body(rlf_border border, const rlf_body_def *def, double second
 }
 
 /* Slid to the right, the left and towards the camera, out of view: it lies on the floor there. */
-static void body_out_of_view_lies_on_the_floor(void **state)
+TEST_CASE(body_out_of_view_lies_on_the_floor)
 {
-    (void)state;
     const rlf_vec3 pushes[3] = {{3, 0, 0}, {-3, 0, 0}, {0, 0, -2.2}};
     for (int k = 0; k < 12; k++) {
         rlf_body_def def = rlf_body_def_default();
@@ -63,9 +62,8 @@ static void body_out_of_view_lies_on_the_floor(void **state)
 }
 
 /* Dropped where the camera never looks: floor and back wall hold it as in view. */
-static void body_that_starts_out_of_view_meets_the_room(void **state)
+TEST_CASE(body_that_starts_out_of_view_meets_the_room)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         rlf_body_def def = rlf_body_def_default();
         def.shape = shape_of(k);
@@ -81,9 +79,8 @@ static void body_that_starts_out_of_view_meets_the_room(void **state)
 }
 
 /* The room's ring of missing pixels is no gap in the floor. */
-static void ring_is_no_gap(void **state)
+TEST_CASE(ring_is_no_gap)
 {
-    (void)state;
     rlf_body_def def = rlf_body_def_default();
     def.shape.size = rlf_vec3_make(0.02, 0.02, 0.02);
     double z = 2.0;
@@ -95,9 +92,8 @@ static void ring_is_no_gap(void **state)
 }
 
 /* Who says nothing has a floor where the camera does not look. */
-static void first_ball_does_not_fall_past_the_floor(void **state)
+TEST_CASE(first_ball_does_not_fall_past_the_floor)
 {
-    (void)state;
     const rlf_scene scene = {.body_count = 0};
     rlf_body_def def = rlf_body_def_default();
     def.shape = shape_of(1);
@@ -110,9 +106,8 @@ static void first_ball_does_not_fall_past_the_floor(void **state)
     assert_true(p.y < 0.91 && p.y > 0.88);
 }
 
-static void wrong_border_is_refused(void **state)
+TEST_CASE(wrong_border_is_refused)
 {
-    (void)state;
     rlf_world_def def = small_world_def();
     def.border = (rlf_border)7;
     rlf_world *world = NULL;
@@ -120,14 +115,4 @@ static void wrong_border_is_refused(void **state)
     assert_non_null(strstr(rlf_error_text(), "border"));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(body_out_of_view_lies_on_the_floor),
-        cmocka_unit_test(body_that_starts_out_of_view_meets_the_room),
-        cmocka_unit_test(ring_is_no_gap),
-        cmocka_unit_test(first_ball_does_not_fall_past_the_floor),
-        cmocka_unit_test(wrong_border_is_refused),
-    };
-    return cmocka_run_group_tests(tests, set_up, grid_room_destroy);
-}
+TEST_GROUP(set_up, grid_room_destroy)

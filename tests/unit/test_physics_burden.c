@@ -1,5 +1,6 @@
 /* What is light stands under what is heavy. */
 #include "grid_room.h"
+#include "created.h"
 #include "test.h"
 
 #define SIDE 0.1
@@ -19,7 +20,7 @@ static rlf_world *start(void)
     rlf_world_def def = rlf_world_def_default();
     rlf_world *world = NULL;
     def.body_capacity = 16;
-    assert_int_equal(rlf_world_create(&def, &world), RLF_OK);
+    world = world_of(&def);
     return world;
 }
 
@@ -30,7 +31,7 @@ static void add(rlf_world *world, rlf_vec3 size, double mass, rlf_vec3 p)
     def.mass = mass;
     def.restitution = 0.0;
     def.position = p;
-    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    add_body(world, &def);
 }
 
 /* How far any body is from where it was after some seconds, metres; 1 where one still moves. */
@@ -70,9 +71,8 @@ static double stack(int count, const double *masses)
 
 static const double ratios[5] = {10, 100, 300, 1000, 3000};
 
-static void heavy_one_stands_on_light_ones(void **state)
+TEST_CASE(heavy_one_stands_on_light_ones)
 {
-    (void)state;
     double most = 0.0;
     for (int lights = 1; lights <= 3; lights++) {
         for (int k = 0; k < 5; k++) {
@@ -85,9 +85,8 @@ static void heavy_one_stands_on_light_ones(void **state)
     assert_true(most < MOVED);
 }
 
-static void light_and_heavy_ones_stand_in_turn(void **state)
+TEST_CASE(light_and_heavy_ones_stand_in_turn)
 {
-    (void)state;
     double most = 0.0;
     for (int k = 0; k < 5; k++) {
         const double masses[4] = {0.1, 0.1 * ratios[k], 0.1, 0.1 * ratios[k]};
@@ -97,9 +96,8 @@ static void light_and_heavy_ones_stand_in_turn(void **state)
     assert_true(most < MOVED);
 }
 
-static void heavy_board_stands_on_two_light_cubes(void **state)
+TEST_CASE(heavy_board_stands_on_two_light_cubes)
 {
-    (void)state;
     double most = 0.0;
     for (int k = 0; k < 5; k++) {
         rlf_world *world = start();
@@ -115,12 +113,4 @@ static void heavy_board_stands_on_two_light_cubes(void **state)
     assert_true(most < MOVED);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(heavy_one_stands_on_light_ones),
-        cmocka_unit_test(light_and_heavy_ones_stand_in_turn),
-        cmocka_unit_test(heavy_board_stands_on_two_light_cubes),
-    };
-    return cmocka_run_group_tests(tests, set_up, grid_room_destroy);
-}
+TEST_GROUP(set_up, grid_room_destroy)

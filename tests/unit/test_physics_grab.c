@@ -21,8 +21,7 @@ static rlf_world *make_world(const rlf_shape *shape, rlf_vec3 at, rlf_body_id *i
     rlf_world_def def = small_world_def();
     def.body_capacity = 8;
     def.enable_grab = true;
-    rlf_world *world = NULL;
-    assert_int_equal(rlf_world_create(&def, &world), RLF_OK);
+    rlf_world *world = world_of(&def);
     rlf_body_def body = rlf_body_def_default();
     body.shape = *shape;
     body.position = at;
@@ -92,9 +91,8 @@ static void run_grasp(const grasp *g)
     grid_fixture_destroy(&fixture);
 }
 
-static void hands_lift_carry_and_let_go(void **state)
+TEST_CASE(hands_lift_carry_and_let_go)
 {
-    (void)state;
     const rlf_shape cube = {.type = RLF_SHAPE_BOX, .size = {0.06, 0.06, 0.06}};
     const rlf_shape large = {.type = RLF_SHAPE_BOX, .size = {0.12, 0.12, 0.12}};
     const rlf_vec3 down = {0, 1, 0}, right = {1, 0, 0}, away = {0, 0, 1};
@@ -109,9 +107,8 @@ static void hands_lift_carry_and_let_go(void **state)
 }
 
 /* One finger that pushes a cube across the table holds nothing. */
-static void what_pushes_does_not_hold(void **state)
+TEST_CASE(what_pushes_does_not_hold)
 {
-    (void)state;
     const rlf_shape cube = {.type = RLF_SHAPE_BOX, .size = {0.06, 0.06, 0.06}};
     grid_fixture *fixture = grid_fixture_create();
     grid_plane room[2] = {grid_floor(TABLE), grid_wall(2)};
@@ -184,23 +181,12 @@ static int32_t frames_held(bool closes, bool *is_let_go)
     return held;
 }
 
-static void a_fitted_hand_holds_where_it_closes(void **state)
+TEST_CASE(a_fitted_hand_holds_where_it_closes)
 {
-    (void)state;
     bool is_let_go = false;
     const int32_t held = frames_held(true, &is_let_go);
     print_message("FITTED closes: held %d frames\n", (int)held);
     assert_true(held > 45 && held < 65); /* from 0.6 to 2.3 s */
     assert_true(is_let_go);
     assert_int_equal(frames_held(false, &is_let_go), 0); /* closed before: it only pushes */
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hands_lift_carry_and_let_go),
-        cmocka_unit_test(what_pushes_does_not_hold),
-        cmocka_unit_test(a_fitted_hand_holds_where_it_closes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

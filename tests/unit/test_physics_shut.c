@@ -25,33 +25,27 @@ static rlf_vec3 way_out(rlf_vec3 from)
 {
     rlf_world_def world_def = small_world_def();
     world_def.gravity = rlf_vec3_make(0, 0, 0);
-    rlf_world *world = NULL;
-    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
+    rlf_world *world = world_of(&world_def);
     rlf_body_def def = rlf_body_def_default();
     def.shape.size = rlf_vec3_make(2 * HALF, 2 * HALF, 2 * HALF);
     def.position = from;
-    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
-    for (int32_t k = 0; k < 30; k++) {
-        fixture->grid.time_ns++;
-        rlf_world_advance(world, &fixture->grid, 1.0 / 30);
-    }
+    add_body(world, &def);
+    advance_frames(world, &fixture->grid, 30, 1.0 / 30);
     rlf_vec3 to = rlf_world_get_snapshot(world)->bodies[0].T_world_body.p;
     rlf_world_destroy(&world);
     return to;
 }
 
-static void back_with_room_behind_it_is_a_way_out(void **state)
+TEST_CASE(back_with_room_behind_it_is_a_way_out)
 {
-    (void)state;
     set_slab(1.0);
     for (double y = -0.1; y < 0.11; y += 0.05) {
         assert_true(way_out(rlf_vec3_make(0.05, y, FRONT + THICK - 0.02)).z > FRONT + THICK);
     }
 }
 
-static void back_that_lies_on_the_wall_is_none(void **state)
+TEST_CASE(back_that_lies_on_the_wall_is_none)
 {
-    (void)state;
     set_slab(0.005);
     for (double y = -0.1; y < 0.11; y += 0.05) {
         rlf_vec3 to = way_out(rlf_vec3_make(0.05, y, FRONT + THICK - HALF));
@@ -60,11 +54,4 @@ static void back_that_lies_on_the_wall_is_none(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(back_with_room_behind_it_is_a_way_out),
-        cmocka_unit_test(back_that_lies_on_the_wall_is_none),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+TEST_GROUP(set_up, tear_down)

@@ -73,9 +73,8 @@ static rlf_pose translation(double x, double y, double z)
     return T;
 }
 
-static void same_camera_is_a_copy(void **state)
+TEST_CASE(same_camera_is_a_copy)
 {
-    (void)state;
     rig g = make_rig(depth_camera(), depth_camera(), rlf_pose_identity());
     int32_t count = g.depth.width * g.depth.height;
     for (int32_t i = 0; i < count; i++) {
@@ -125,9 +124,8 @@ static void check_plane(rig *g, const rlf_pose *T, rlf_vec3 n, double d, double 
     assert_true(holes <= inside / 200); /* the rectangles themselves leave next to no gaps */
 }
 
-static void planes_keep_their_depth(void **state)
+TEST_CASE(planes_keep_their_depth)
 {
-    (void)state;
     rlf_pose T = translation(-0.052, 0.001, 0.002);
     T.q = rlf_quat_from_axis_angle(rlf_normalize(rlf_vec3_make(0.3, 1, 0.2)), 0.01);
     rig g = make_rig(depth_camera(), color_camera(), T);
@@ -137,9 +135,8 @@ static void planes_keep_their_depth(void **state)
     free_rig(&g);
 }
 
-static void distorted_colour_camera_sees_the_same_plane(void **state)
+TEST_CASE(distorted_colour_camera_sees_the_same_plane)
 {
-    (void)state;
     rlf_camera color = color_camera();
     color.distortion_model = RLF_DISTORTION_PLUMB_BOB;
     const double k[5] = {0.09, -0.27, 0.001, -0.0007, 0.09};
@@ -152,9 +149,8 @@ static void distorted_colour_camera_sees_the_same_plane(void **state)
 }
 
 /* A lens that draws the border together, as Azure Kinect's: there the rectangles are wider. */
-static void distorted_depth_camera_leaves_no_gaps(void **state)
+TEST_CASE(distorted_depth_camera_leaves_no_gaps)
 {
-    (void)state;
     rlf_camera depth = depth_camera();
     depth.distortion_model = RLF_DISTORTION_RATIONAL_POLYNOMIAL;
     const double k[8] = {0.548, -0.021, 0.0, 0.0, -0.0027, 0.89, 0.086, -0.0139};
@@ -178,9 +174,8 @@ static void two_planes(rig *g, int32_t first, int32_t last, double z_near, doubl
     rlf_registration_apply(g->registration, g->z, &g->out, &g->state);
 }
 
-static void shadow_has_its_side_width_and_depth(void **state)
+TEST_CASE(shadow_has_its_side_width_and_depth)
 {
-    (void)state;
     const double z_near = 1.5;
     const double z_far = 3.0;
     for (int side = -1; side <= 1; side += 2) {
@@ -216,9 +211,8 @@ static void shadow_has_its_side_width_and_depth(void **state)
 }
 
 /* Row by row without a z-buffer: every pixel lands where its point is seen, or nowhere. */
-static void pixels_of_a_row_are_found(void **state)
+TEST_CASE(pixels_of_a_row_are_found)
 {
-    (void)state;
     enum { STRIDE = 960 * 4 + 64 };
     rig g = make_rig(depth_camera(), color_camera(), translation(-0.052, 0, 0));
     two_planes(&g, 200, 299, 1.5, 3.0);
@@ -250,9 +244,8 @@ static void pixels_of_a_row_are_found(void **state)
 
 /* The strip of the far wall that the near edge keeps from the colour camera lies on the other side
  * of the strip that it keeps from the depth camera, and is as wide in depth pixels. */
-static void both_maps_know_what_is_hidden(void **state)
+TEST_CASE(both_maps_know_what_is_hidden)
 {
-    (void)state;
     const double z_near = 1.5;
     const double z_far = 3.0;
     for (int side = -1; side <= 1; side += 2) {
@@ -287,9 +280,8 @@ static void both_maps_know_what_is_hidden(void **state)
     }
 }
 
-static void vertical_baseline_fills_columns(void **state)
+TEST_CASE(vertical_baseline_fills_columns)
 {
-    (void)state;
     rig g = make_rig(depth_camera(), color_camera(), translation(0, -0.05, 0));
     for (int32_t i = 0; i < g.depth.width * g.depth.height; i++) {
         int32_t v = i / g.depth.width;
@@ -333,9 +325,8 @@ static void check_rows(rig *g, int32_t begin, int32_t end)
     free(seen);
 }
 
-static void rows_are_those_of_the_picture(void **state)
+TEST_CASE(rows_are_those_of_the_picture)
 {
-    (void)state;
     const rlf_vec3 baselines[3] = {{-0.052, 0.003, 0.01}, {0.0, -0.05, 0.0}, {0.02, 0.0, -0.1}};
     srand(4);
     for (int i = 0; i < 6; i++) {
@@ -360,9 +351,8 @@ static void rows_are_those_of_the_picture(void **state)
     }
 }
 
-static void wide_holes_stay_empty(void **state)
+TEST_CASE(wide_holes_stay_empty)
 {
-    (void)state;
     rig g = make_rig(depth_camera(), color_camera(), translation(-0.052, 0, 0));
     two_planes(&g, 200, 299, 0.0, 3.0);
     assert_int_equal(rlf_u8_row(&g.state, 270)[470], RLF_REGISTERED_EMPTY);
@@ -377,9 +367,8 @@ static void wide_holes_stay_empty(void **state)
 }
 
 /* A small depth grid makes rectangles of many pixels; strides and odd sizes are the caller's. */
-static void coarse_grid_covers_the_picture(void **state)
+TEST_CASE(coarse_grid_covers_the_picture)
 {
-    (void)state;
     rlf_camera full = depth_camera();
     rlf_pose T = translation(-0.052, 0, 0);
     rig g = make_rig(rlf_camera_decimate(&full, 8), color_camera(), T);
@@ -393,9 +382,8 @@ static void coarse_grid_covers_the_picture(void **state)
     free_rig(&tiny);
 }
 
-static void bad_depth_and_padding_are_left_alone(void **state)
+TEST_CASE(bad_depth_and_padding_are_left_alone)
 {
-    (void)state;
     rig g = make_rig(depth_camera(), color_camera(), translation(-0.052, 0.01, -0.3));
     int32_t count = g.depth.width * g.depth.height;
     const float odd[6] = {NAN, INFINITY, -1.0f, 1e30f, 1e-30f, 0.29f};
@@ -425,9 +413,8 @@ static void bad_depth_and_padding_are_left_alone(void **state)
     free_rig(&g);
 }
 
-static void wrong_cameras_are_refused(void **state)
+TEST_CASE(wrong_cameras_are_refused)
 {
-    (void)state;
     rlf_camera good = depth_camera();
     rlf_camera bad = good;
     bad.fx = 0;
@@ -441,24 +428,4 @@ static void wrong_cameras_are_refused(void **state)
     assert_null(r);
     rlf_registration_destroy(&r);
     rlf_registration_destroy(NULL);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(same_camera_is_a_copy),
-        cmocka_unit_test(planes_keep_their_depth),
-        cmocka_unit_test(distorted_colour_camera_sees_the_same_plane),
-        cmocka_unit_test(distorted_depth_camera_leaves_no_gaps),
-        cmocka_unit_test(shadow_has_its_side_width_and_depth),
-        cmocka_unit_test(both_maps_know_what_is_hidden),
-        cmocka_unit_test(pixels_of_a_row_are_found),
-        cmocka_unit_test(vertical_baseline_fills_columns),
-        cmocka_unit_test(rows_are_those_of_the_picture),
-        cmocka_unit_test(wide_holes_stay_empty),
-        cmocka_unit_test(coarse_grid_covers_the_picture),
-        cmocka_unit_test(bad_depth_and_padding_are_left_alone),
-        cmocka_unit_test(wrong_cameras_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

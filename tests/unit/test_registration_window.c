@@ -95,9 +95,8 @@ static void check_window(rig *g, pixel_rect window, double nearest)
     }
 }
 
-static void windows_are_parts_of_the_picture(void **state)
+TEST_CASE(windows_are_parts_of_the_picture)
 {
-    (void)state;
     const rlf_vec3 baselines[4] = {
         {-0.052, 0.003, 0.01}, {0.0, -0.05, 0.0}, {0.02, 0.0, -0.1}, {0.1, 0.0, 0.0}};
     const float nearest[3] = {0.15f, 0.6f, 1.8f};
@@ -119,9 +118,8 @@ static void windows_are_parts_of_the_picture(void **state)
     }
 }
 
-static void few_columns_are_looked_at(void **state)
+TEST_CASE(few_columns_are_looked_at)
 {
-    (void)state;
     const rlf_pose T = {{-0.052, 0, 0}, rlf_quat_identity()};
     rig g = make_rig(T, 0.0);
     int32_t columns[2];
@@ -134,13 +132,4 @@ static void few_columns_are_looked_at(void **state)
     registration_columns(g.registration, 300, 340, 0.01, columns);
     assert_in_range(columns[1] - columns[0], 200, g.depth.width);
     free_rig(&g);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(windows_are_parts_of_the_picture),
-        cmocka_unit_test(few_columns_are_looked_at),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* Segmentation eq. 4.4, regions, dilation, and what is stored of each region. */
 
-#include "analytic.h"
+#include "seen_view.h"
 #include "surface/steps.h"
 #include "test.h"
 
@@ -16,24 +16,20 @@ static rlf_reconstruct *make_stage(int32_t width, int32_t height, rlf_segment_me
     def.segment_tau_m = 0.1;
     def.enable_dilation = dilate;
     def.min_region_points = 1;
-    rlf_reconstruct *stage = NULL;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
-    return stage;
+    return stage_of(&def);
 }
 
 static const rlf_surface *process(rlf_reconstruct *stage, const float *depth, int32_t number)
 {
     rlf_frame frame = analytic_frame(&stage->def.rig, depth, number);
     frame.rig = NULL;
-    const rlf_surface *s = NULL;
-    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+    const rlf_surface *s = surface_of(stage, &frame);
     return s;
 }
 
 /* Bits by hand: a pixel is 1 when its right and its lower neighbours are within tau. */
-static void bits_are_the_and_of_both_directions(void **state)
+TEST_CASE(bits_are_the_and_of_both_directions)
 {
-    (void)state;
     const float depth[16] = {1.0f, 1.0f, 2.0f, 2.0f, /* */
                              1.0f, 1.0f, 2.0f, 2.0f, /* */
                              1.0f, 1.0f, 1.0f, 1.0f, /* */
@@ -52,9 +48,8 @@ static void bits_are_the_and_of_both_directions(void **state)
 }
 
 /* Two halves at different depths: each is one region, dilation gives back what eq. 4.4 lost. */
-static void dilation_restores_lost_pixels_and_keeps_labels(void **state)
+TEST_CASE(dilation_restores_lost_pixels_and_keeps_labels)
 {
-    (void)state;
     enum { W = 16, H = 12 };
     float depth[W * H];
     for (int i = 0; i < W * H; i++) {
@@ -88,9 +83,8 @@ static void dilation_restores_lost_pixels_and_keeps_labels(void **state)
 }
 
 /* Regions are 4-connected: two squares that touch at a corner stay apart. */
-static void regions_are_4_connected(void **state)
+TEST_CASE(regions_are_4_connected)
 {
-    (void)state;
     enum { W = 12, H = 12 };
     float depth[W * H];
     for (int i = 0; i < W * H; i++) {
@@ -105,9 +99,8 @@ static void regions_are_4_connected(void **state)
 }
 
 /* A spiral is one component, however often its arms meet late. */
-static void a_spiral_is_one_region(void **state)
+TEST_CASE(a_spiral_is_one_region)
 {
-    (void)state;
     enum { W = 41, H = 41 };
     static float depth[W * H];
     int x = 0, y = 0, dx = 1, dy = 0, length = W - 1, count = 1;
@@ -136,9 +129,8 @@ static void a_spiral_is_one_region(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
-static void region_holds_points_box_rectangle_and_mask(void **state)
+TEST_CASE(region_holds_points_box_rectangle_and_mask)
 {
-    (void)state;
     enum { W = 40, H = 30 };
     static float depth[W * H];
     for (int i = 0; i < W * H; i++) {
@@ -174,9 +166,8 @@ static void region_holds_points_box_rectangle_and_mask(void **state)
 }
 
 /* A sphere's visible cap is no plane: its residual is far above a plane's. */
-static void plane_residual_tells_flat_from_round(void **state)
+TEST_CASE(plane_residual_tells_flat_from_round)
 {
-    (void)state;
     enum { W = 64, H = 64 };
     static float depth[W * H];
     rlf_reconstruct *stage = make_stage(W, H, RLF_SEGMENT_OFF, false);
@@ -190,9 +181,8 @@ static void plane_residual_tells_flat_from_round(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
-static void labels_stay_while_a_thing_moves(void **state)
+TEST_CASE(labels_stay_while_a_thing_moves)
 {
-    (void)state;
     enum { W = 80, H = 40 };
     static float depth[W * H];
     rlf_reconstruct *stage = make_stage(W, H, RLF_SEGMENT_NOISE, false);
@@ -218,9 +208,8 @@ static void labels_stay_while_a_thing_moves(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
-static void too_many_regions_keep_the_largest(void **state)
+TEST_CASE(too_many_regions_keep_the_largest)
 {
-    (void)state;
     enum { W = 60, H = 40 };
     static float depth[W * H];
     rlf_rig rig = analytic_rig(W, H);
@@ -229,8 +218,7 @@ static void too_many_regions_keep_the_largest(void **state)
     def.enable_flying_removal = def.enable_fill = false;
     def.region_capacity = 3;
     def.min_region_points = 1;
-    rlf_reconstruct *stage;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    rlf_reconstruct *stage = stage_of(&def);
     for (int k = 0; k < 6; k++) { /* bars of 2, 3, ... 7 rows with a gap */
         for (int y = 0; y < k + 2; y++) {
             for (int x = 10 * k; x < 10 * k + 8; x++) {
@@ -247,9 +235,8 @@ static void too_many_regions_keep_the_largest(void **state)
 }
 
 /* A plate of 0.6 x 0.2 m that is turned in the picture and leans back. */
-static void oriented_box_fits_a_leaning_plate(void **state)
+TEST_CASE(oriented_box_fits_a_leaning_plate)
 {
-    (void)state;
     enum { WIDTH = 256, HEIGHT = 212 };
     static float depth[WIDTH * HEIGHT];
     const rlf_vec3 normal = {0.0, 0.6, -0.8}, centre = {0.1, -0.05, 2.0};
@@ -277,20 +264,4 @@ static void oriented_box_fits_a_leaning_plate(void **state)
     assert_float_equal(region->oriented_half.y, 0.1, 0.02);
     assert_true(region->oriented_half.z < 1e-3 && region->plane_residual < 1e-3);
     rlf_reconstruct_destroy(&stage);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bits_are_the_and_of_both_directions),
-        cmocka_unit_test(dilation_restores_lost_pixels_and_keeps_labels),
-        cmocka_unit_test(regions_are_4_connected),
-        cmocka_unit_test(a_spiral_is_one_region),
-        cmocka_unit_test(region_holds_points_box_rectangle_and_mask),
-        cmocka_unit_test(plane_residual_tells_flat_from_round),
-        cmocka_unit_test(labels_stay_while_a_thing_moves),
-        cmocka_unit_test(too_many_regions_keep_the_largest),
-        cmocka_unit_test(oriented_box_fits_a_leaning_plate),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* Things on a table are regions of their own, those that touch as well, and stay what they are. */
 
 #include "seen_view.h"
+#include "created.h"
 #include "test.h"
 
 #include <math.h>
@@ -130,7 +131,7 @@ static rlf_reconstruct *make_stage(const scene *s, rlf_pool *pool)
 {
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &s->view.rig);
     def.pool = pool;
-    return seen_view_stage(&def);
+    return stage_of(&def);
 }
 
 /* Overlap of a thing with the region that fits it best, over their union; *out_label is its. */
@@ -167,7 +168,7 @@ static void check_things(const scene *s, const rlf_surface *surface, double leas
     }
 }
 
-static void things_are_regions(void **state)
+TEST_CASE(things_are_regions)
 {
     scene *s = *state;
     rlf_reconstruct *stage = make_stage(s, NULL);
@@ -182,7 +183,7 @@ static void things_are_regions(void **state)
 }
 
 /* Only what is beside another thing may go over to it. */
-static void labels_stay(void **state)
+TEST_CASE(labels_stay)
 {
     static int32_t before[COUNT];
     scene *s = *state;
@@ -203,12 +204,11 @@ static void labels_stay(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
-static void threads_make_no_difference(void **state)
+TEST_CASE(threads_make_no_difference)
 {
     static int32_t label[COUNT];
     scene *s = *state;
-    rlf_pool *pool = NULL;
-    assert_int_equal(rlf_pool_create(3, &pool), RLF_OK);
+    rlf_pool *pool = pool_of(3);
     rlf_reconstruct *stage[2] = {make_stage(s, NULL), make_stage(s, pool)};
     for (int f = 0; f < 8; f++) {
         see(s);
@@ -220,7 +220,7 @@ static void threads_make_no_difference(void **state)
     rlf_pool_destroy(&pool);
 }
 
-static void a_reset_forgets(void **state)
+TEST_CASE(a_reset_forgets)
 {
     static int32_t label[COUNT];
     scene *s = *state;
@@ -245,13 +245,5 @@ static void a_reset_forgets(void **state)
     rlf_reconstruct_destroy(&stage[1]);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(things_are_regions, begin_noise),
-        cmocka_unit_test_setup(labels_stay, begin_noise),
-        cmocka_unit_test_setup(threads_make_no_difference, begin_noise),
-        cmocka_unit_test_setup(a_reset_forgets, begin_noise),
-    };
-    return cmocka_run_group_tests(tests, set_up, seen_view_destroy);
-}
+TEST_GROUP(set_up, seen_view_destroy)
+TEST_EACH(begin_noise, NULL)

@@ -15,7 +15,7 @@ static rlf_reconstruct *make_stage(void)
     rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
     def.min_region_points = 8;
-    return seen_view_stage(&def);
+    return stage_of(&def);
 }
 
 static const rlf_surface *process(rlf_reconstruct *stage, int32_t number)
@@ -70,9 +70,8 @@ static rlf_pose carried(int32_t frames)
     return pose;
 }
 
-static void a_camera_that_moves_is_told(void **state)
+TEST_CASE(a_camera_that_moves_is_told)
 {
-    (void)state;
     rlf_reconstruct *stage = make_stage();
     const rlf_pose still = rlf_pose_identity();
     for (int32_t k = 0; k < STILL; k++) {
@@ -101,9 +100,8 @@ static void a_camera_that_moves_is_told(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
-static void who_walks_by_moves_no_camera(void **state)
+TEST_CASE(who_walks_by_moves_no_camera)
 {
-    (void)state;
     rlf_reconstruct *stage = make_stage();
     const rlf_pose still = rlf_pose_identity();
     for (int32_t k = 0; k < STILL + 40; k++) {
@@ -158,9 +156,8 @@ static void look_at_wall(int32_t number)
     }
 }
 
-static void who_turns_before_a_bare_wall_moves_no_camera(void **state)
+TEST_CASE(who_turns_before_a_bare_wall_moves_no_camera)
 {
-    (void)state;
     rlf_reconstruct *stage = make_stage();
     for (int32_t k = 0; k < STILL + 60; k++) {
         look_at_wall(k);
@@ -170,14 +167,4 @@ static void who_turns_before_a_bare_wall_moves_no_camera(void **state)
         assert_true(k < STILL + 8 || s->foreground_count > 0);
     }
     rlf_reconstruct_destroy(&stage);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_camera_that_moves_is_told),
-        cmocka_unit_test(who_walks_by_moves_no_camera),
-        cmocka_unit_test(who_turns_before_a_bare_wall_moves_no_camera),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

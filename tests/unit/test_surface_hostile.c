@@ -2,6 +2,7 @@
  * they cost is printed by lab/bench/bench_hostile.c. */
 
 #include "hostile.h"
+#include "seen_view.h"
 #include "surface_check.h"
 #include "test.h"
 
@@ -15,7 +16,7 @@ static run run_make(int32_t width, int32_t height)
 {
     run r = {.rig = analytic_rig(width, height)};
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &r.rig);
-    assert_int_equal(rlf_reconstruct_create(&def, &r.stage), RLF_OK);
+    r.stage = stage_of(&def);
     r.depth = rlf_alloc_array((size_t)width * (size_t)height, sizeof *r.depth);
     assert_non_null(r.depth);
     return r;
@@ -32,14 +33,13 @@ static const rlf_surface *run_frame(run *r, hostile_pattern pattern, int32_t num
     const rlf_surface *surface = NULL;
     hostile_draw(&r->rig, pattern, number, r->depth);
     rlf_frame frame = hostile_frame(&r->rig, r->depth, number);
-    assert_int_equal(rlf_reconstruct_process(r->stage, &frame, &surface), RLF_OK);
+    surface = surface_of(r->stage, &frame);
     surface_check(surface);
     return surface;
 }
 
-static void every_pattern_is_survived(void **state)
+TEST_CASE(every_pattern_is_survived)
 {
-    (void)state;
     for (int pattern = 0; pattern < HOSTILE_PATTERN_COUNT; pattern++) {
         run r = run_make(97, 61);
         for (int32_t t = 0; t < 16; t++) {
@@ -55,9 +55,8 @@ static void every_pattern_is_survived(void **state)
     }
 }
 
-static void large_frames_are_survived(void **state)
+TEST_CASE(large_frames_are_survived)
 {
-    (void)state;
     run r = run_make(641, 479);
     for (int32_t t = 0; t < 7; t++) {
         run_frame(&r, t < 6 ? HOSTILE_CHECKER_HOLES : HOSTILE_BLOCKS, t);
@@ -65,9 +64,8 @@ static void large_frames_are_survived(void **state)
     run_free(&r);
 }
 
-static void what_is_out_of_range_is_missing(void **state)
+TEST_CASE(what_is_out_of_range_is_missing)
 {
-    (void)state;
     run r = run_make(97, 61);
     for (int32_t t = 0; t < 12; t++) {
         const rlf_surface *s = run_frame(&r, HOSTILE_SATURATED, t);
@@ -91,9 +89,8 @@ static bool is_corner(const rlf_surface *s, int32_t i)
 
 /* One pixel in a hundred is missing: every pixel that was measured keeps its normal, none is wrong,
  * and nothing moves or stands in front. */
-static void dropouts_cost_their_neighbours_nothing(void **state)
+TEST_CASE(dropouts_cost_their_neighbours_nothing)
 {
-    (void)state;
     run r = run_make(193, 121);
     for (int32_t t = 0; t < 24; t++) {
         const rlf_surface *s = run_frame(&r, HOSTILE_DROPOUT_1, t);
@@ -109,15 +106,4 @@ static void dropouts_cost_their_neighbours_nothing(void **state)
         }
     }
     run_free(&r);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_pattern_is_survived),
-        cmocka_unit_test(large_frames_are_survived),
-        cmocka_unit_test(what_is_out_of_range_is_missing),
-        cmocka_unit_test(dropouts_cost_their_neighbours_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

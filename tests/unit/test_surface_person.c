@@ -4,6 +4,8 @@
 #include "heavy.h"
 #include "relief/reconstruct.h"
 #include "relief/synthetic.h"
+#include "created.h"
+#include "seen_view.h"
 #include "test.h"
 
 #include <stdlib.h>
@@ -23,10 +25,10 @@ static int start(void **state)
     rlf_synthetic_def synthetic = rlf_synthetic_def_default();
     synthetic.enable_color = false;
     synthetic.frame_count = FRAMES;
-    assert_int_equal(rlf_synthetic_create(&synthetic, &w.source), RLF_OK);
+    w.source = synthetic_of(&synthetic);
     rlf_reconstruct_def def =
         rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rlf_source_get_info(w.source)->rig);
-    assert_int_equal(rlf_reconstruct_create(&def, &w.stage), RLF_OK);
+    w.stage = stage_of(&def);
     *state = &w;
     return 0;
 }
@@ -45,7 +47,7 @@ static bool next(walk *w)
     if (rlf_source_next(w->source, &frame) != RLF_OK) {
         return false;
     }
-    assert_int_equal(rlf_reconstruct_process(w->stage, &frame, &w->surface), RLF_OK);
+    w->surface = surface_of(w->stage, &frame);
     w->truth = rlf_source_get_truth(w->source);
     return true;
 }
@@ -162,7 +164,7 @@ static void limbs_have_their_own_velocity(motion *m)
 }
 
 /* One walk for everything: its frames are what takes the time. */
-static void a_walking_person_is_one_region_whose_limbs_move(void **state)
+TEST_CASE(a_walking_person_is_one_region_whose_limbs_move)
 {
     walk *w = *state;
     motion m = {.error = malloc(MOST * sizeof *m.error)};
@@ -183,11 +185,4 @@ static void a_walking_person_is_one_region_whose_limbs_move(void **state)
     free(m.error);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_walking_person_is_one_region_whose_limbs_move, start,
-                                        finish),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(start, finish)

@@ -1,6 +1,6 @@
 /* Point cloud eq. 4.1: decimation, units, ranges, reasons, rays, strides. */
 
-#include "analytic.h"
+#include "seen_view.h"
 #include "test.h"
 
 #include <math.h>
@@ -16,9 +16,8 @@ static rlf_reconstruct_def plain_def(const rlf_rig *rig, int32_t factor)
     return def;
 }
 
-static void every_kept_point_is_eq_4_1(void **state)
+TEST_CASE(every_kept_point_is_eq_4_1)
 {
-    (void)state;
     enum { WIDTH = 101, HEIGHT = 67, PAD = 5 };
     static uint16_t depth[HEIGHT][WIDTH + PAD];
     static const int32_t factors[] = {1, 2, 3, 8, 64};
@@ -31,14 +30,12 @@ static void every_kept_point_is_eq_4_1(void **state)
     for (size_t k = 0; k < sizeof factors / sizeof factors[0]; k++) {
         int32_t f = factors[k];
         rlf_reconstruct_def def = plain_def(&rig, f);
-        rlf_reconstruct *stage;
-        assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+        rlf_reconstruct *stage = stage_of(&def);
         rlf_frame frame = {.rig = &rig,
                            .depth_u16 = &depth[0][0],
                            .depth_stride = sizeof depth[0],
                            .depth_units_per_metre = 1000.0};
-        const rlf_surface *s;
-        assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+        const rlf_surface *s = surface_of(stage, &frame);
         assert_int_equal(s->width, (WIDTH + f - 1) / f);
         assert_int_equal(s->height, (HEIGHT + f - 1) / f);
         assert_int_equal(s->scale_factor, f);
@@ -56,9 +53,8 @@ static void every_kept_point_is_eq_4_1(void **state)
     }
 }
 
-static void lens_distortion_is_undone_and_the_rest_has_a_reason(void **state)
+TEST_CASE(lens_distortion_is_undone_and_the_rest_has_a_reason)
 {
-    (void)state;
     rlf_rig rig = analytic_rig(64, 48);
     rig.depth.distortion_model = RLF_DISTORTION_PLUMB_BOB;
     rig.depth.distortion[0] = -0.5; /* folds within the picture */
@@ -67,11 +63,9 @@ static void lens_distortion_is_undone_and_the_rest_has_a_reason(void **state)
         depth[i] = 2.0f;
     }
     rlf_reconstruct_def def = plain_def(&rig, 1);
-    rlf_reconstruct *stage;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    rlf_reconstruct *stage = stage_of(&def);
     rlf_frame frame = analytic_frame(&rig, depth, 0);
-    const rlf_surface *s;
-    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+    const rlf_surface *s = surface_of(stage, &frame);
     int outside = 0;
     for (int32_t i = 0; i < s->width * s->height; i++) {
         if (s->reason[i] == RLF_REASON_OUTSIDE_LENS) {
@@ -89,9 +83,8 @@ static void lens_distortion_is_undone_and_the_rest_has_a_reason(void **state)
     rlf_free(depth);
 }
 
-static void missing_depth_is_data_with_a_reason(void **state)
+TEST_CASE(missing_depth_is_data_with_a_reason)
 {
-    (void)state;
     rlf_rig rig = analytic_rig(9, 1);
     const float depth[9] = {1.0f,   0.0f,   -1.0f,           NAN, INFINITY, 0.49f,
                             4.501f, 1e-40f, (float)-HUGE_VAL};
@@ -100,11 +93,9 @@ static void missing_depth_is_data_with_a_reason(void **state)
         RLF_REASON_NO_RETURN, RLF_REASON_NO_RETURN, RLF_REASON_TOO_NEAR,
         RLF_REASON_TOO_FAR,   RLF_REASON_TOO_NEAR,  RLF_REASON_NO_RETURN};
     rlf_reconstruct_def def = plain_def(&rig, 1);
-    rlf_reconstruct *stage;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    rlf_reconstruct *stage = stage_of(&def);
     rlf_frame frame = analytic_frame(&rig, depth, 0);
-    const rlf_surface *s;
-    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+    const rlf_surface *s = surface_of(stage, &frame);
     for (int i = 0; i < 9; i++) {
         assert_int_equal(s->reason[i], expected[i]);
         assert_true((s->depth[i] > 0.0f) == (i == 0));
@@ -114,18 +105,15 @@ static void missing_depth_is_data_with_a_reason(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
-static void u16_extremes_have_a_reason(void **state)
+TEST_CASE(u16_extremes_have_a_reason)
 {
-    (void)state;
     rlf_rig rig = analytic_rig(4, 1);
     const uint16_t depth[4] = {0, 1, 65535, 5000};
     rlf_reconstruct_def def = plain_def(&rig, 1);
-    rlf_reconstruct *stage;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    rlf_reconstruct *stage = stage_of(&def);
     rlf_frame frame = {
         .rig = &rig, .depth_u16 = depth, .depth_stride = 8, .depth_units_per_metre = 5000.0};
-    const rlf_surface *s;
-    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+    const rlf_surface *s = surface_of(stage, &frame);
     assert_int_equal(s->reason[0], RLF_REASON_NO_RETURN);
     assert_int_equal(s->reason[1], RLF_REASON_TOO_NEAR);
     assert_int_equal(s->reason[2], RLF_REASON_TOO_FAR);
@@ -134,9 +122,8 @@ static void u16_extremes_have_a_reason(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
-static void mixed_pixels_are_removed_and_planes_kept(void **state)
+TEST_CASE(mixed_pixels_are_removed_and_planes_kept)
 {
-    (void)state;
     enum { WIDTH = 64, HEIGHT = 48 };
     static float depth[WIDTH * HEIGHT];
     rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
@@ -148,13 +135,12 @@ static void mixed_pixels_are_removed_and_planes_kept(void **state)
     }
     rlf_reconstruct_def def = plain_def(&rig, 1);
     def.enable_flying_removal = true;
-    rlf_reconstruct *stage;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    rlf_reconstruct *stage = stage_of(&def);
     rlf_frame frame = analytic_frame(&rig, depth, 0);
     const rlf_surface *s;
     for (int pass = 0; pass < 2; pass++) {
         depth[20 * WIDTH + 30] += 0.04f; /* not even its column agrees with this one */
-        assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+        s = surface_of(stage, &frame);
     }
     int32_t odd = 20 * WIDTH + 30;
     assert_int_equal(s->reason[odd], RLF_REASON_FLYING);
@@ -167,9 +153,8 @@ static void mixed_pixels_are_removed_and_planes_kept(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
-static void small_holes_are_filled_from_the_right_side(void **state)
+TEST_CASE(small_holes_are_filled_from_the_right_side)
 {
-    (void)state;
     enum { WIDTH = 80, HEIGHT = 60 };
     static float depth[WIDTH * HEIGHT];
     rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
@@ -184,11 +169,9 @@ static void small_holes_are_filled_from_the_right_side(void **state)
     }
     rlf_reconstruct_def def = plain_def(&rig, 1);
     def.enable_fill = true;
-    rlf_reconstruct *stage;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    rlf_reconstruct *stage = stage_of(&def);
     rlf_frame frame = analytic_frame(&rig, depth, 0);
-    const rlf_surface *s;
-    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+    const rlf_surface *s = surface_of(stage, &frame);
     int32_t row = 30 * WIDTH;
     for (int x = 10; x < 15; x++) { /* on the plane, exactly */
         double truth = plane_depth(n, -1.8, s->ray_x[row + x], s->ray_y[row + x]);
@@ -204,17 +187,4 @@ static void small_holes_are_filled_from_the_right_side(void **state)
     rlf_reconstruct_destroy(&stage);
     rlf_free(ray_x);
     rlf_free(ray_y);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_kept_point_is_eq_4_1),
-        cmocka_unit_test(lens_distortion_is_undone_and_the_rest_has_a_reason),
-        cmocka_unit_test(missing_depth_is_data_with_a_reason),
-        cmocka_unit_test(u16_extremes_have_a_reason),
-        cmocka_unit_test(mixed_pixels_are_removed_and_planes_kept),
-        cmocka_unit_test(small_holes_are_filled_from_the_right_side),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -133,7 +133,7 @@ static double error_edge_on(staged_view *f, const double half[3], double from_de
     return sum / count;
 }
 
-static void a_plate_edge_on_is_as_deep_as_its_face_was_wide(void **state)
+TEST_CASE(a_plate_edge_on_is_as_deep_as_its_face_was_wide)
 {
     static const double halves[3][3] = {
         {0.085, 0.120, 0.0125}, {0.150, 0.100, 0.006}, {0.060, 0.080, 0.015}};
@@ -145,7 +145,7 @@ static void a_plate_edge_on_is_as_deep_as_its_face_was_wide(void **state)
 }
 
 /* An upright barrel has a front as wide as a book and no outline of its own there. */
-static void a_barrel_is_no_plate(void **state)
+TEST_CASE(a_barrel_is_no_plate)
 {
     const double radius = 0.16, half_height = 0.2;
     staged_view *f = *state;
@@ -171,7 +171,7 @@ static void a_barrel_is_no_plate(void **state)
 
 /* A box that is a little off comes to where its outline is seen, with edges along rows and columns,
  * too, and the same frame does not move it on: where it began has no say but by its doubt. */
-static void a_frame_places_a_plate_and_does_not_move_it_again(void **state)
+TEST_CASE(a_frame_places_a_plate_and_does_not_move_it_again)
 {
     staged_view *f = *state;
     const plate seen = {.half = {0.01, 0.12, 0.09}, .x = 0.05};
@@ -213,9 +213,8 @@ static double beyond_faces(const slab_view *box, double u, double v, double z)
 }
 
 /* Where a ray enters or leaves a box it is on a face, and outside a millimetre beyond. */
-static void a_ray_is_cut_where_it_meets_the_faces(void **state)
+TEST_CASE(a_ray_is_cut_where_it_meets_the_faces)
 {
-    (void)state;
     analytic_random r = {11};
     int32_t met = 0;
     for (int t = 0; t < 5000; t++) {
@@ -239,13 +238,4 @@ static void a_ray_is_cut_where_it_meets_the_faces(void **state)
     assert_true(met > 500);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_ray_is_cut_where_it_meets_the_faces),
-        cmocka_unit_test(a_plate_edge_on_is_as_deep_as_its_face_was_wide),
-        cmocka_unit_test(a_barrel_is_no_plate),
-        cmocka_unit_test(a_frame_places_a_plate_and_does_not_move_it_again),
-    };
-    return cmocka_run_group_tests(tests, make_fixture, staged_view_destroy);
-}
+TEST_GROUP(make_fixture, staged_view_destroy)

@@ -1,8 +1,9 @@
 /* The stage as a whole: memory, lifetime of surfaces, determinism, bad input. */
 
-#include "analytic.h"
+#include "seen_view.h"
 #include "surface/stage.h"
 #include "surface_check.h"
+#include "created.h"
 #include "test.h"
 
 #include <math.h>
@@ -65,14 +66,11 @@ static rlf_reconstruct *make_stage(const rlf_rig *rig, rlf_profile profile, rlf_
 {
     rlf_reconstruct_def def = rlf_reconstruct_def_default(profile, rig);
     def.pool = pool;
-    rlf_reconstruct *stage = NULL;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
-    return stage;
+    return stage_of(&def);
 }
 
-static void results_do_not_depend_on_workers(void **state)
+TEST_CASE(results_do_not_depend_on_workers)
 {
-    (void)state;
     enum { W = 161, H = 121, FRAMES = 14 };
     static float depth[W * H];
     rlf_rig rig = analytic_rig(W, H);
@@ -81,14 +79,13 @@ static void results_do_not_depend_on_workers(void **state)
     for (int k = 0; k < 3; k++) {
         rlf_pool *pool = NULL;
         if (workers[k] > 0) {
-            assert_int_equal(rlf_pool_create(workers[k], &pool), RLF_OK);
+            pool = pool_of(workers[k]);
         }
         rlf_reconstruct *stage = make_stage(&rig, RLF_PROFILE_LIVE, pool);
         for (int32_t t = 0; t < FRAMES; t++) {
             draw(&rig, depth, t, 99);
             rlf_frame frame = analytic_frame(&rig, depth, t);
-            const rlf_surface *s;
-            assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+            const rlf_surface *s = surface_of(stage, &frame);
             hash[k][t] = hash_surface(s);
             assert_true(t < 8 || s->foreground_count > 500);
         }
@@ -101,9 +98,8 @@ static void results_do_not_depend_on_workers(void **state)
 }
 
 /* Nothing that a step leaves in its scratch planes is read by a later one. */
-static void scratch_holds_for_its_step_only(void **state)
+TEST_CASE(scratch_holds_for_its_step_only)
 {
-    (void)state;
     enum { W = 161, H = 121, FRAMES = 40 };
     static float depth[W * H];
     rlf_rig rig = analytic_rig(W, H);
@@ -118,7 +114,7 @@ static void scratch_holds_for_its_step_only(void **state)
             rlf_frame frame = analytic_frame(&rig, depth, t);
             const rlf_surface *s[2];
             for (int k = 0; k < 2; k++) {
-                assert_int_equal(rlf_reconstruct_process(stages[k], &frame, &s[k]), RLF_OK);
+                s[k] = surface_of(stages[k], &frame);
             }
             assert_true(hash_surface(s[0]) == hash_surface(s[1]));
         }
@@ -127,9 +123,8 @@ static void scratch_holds_for_its_step_only(void **state)
     }
 }
 
-static void processing_allocates_nothing(void **state)
+TEST_CASE(processing_allocates_nothing)
 {
-    (void)state;
     enum { W = 96, H = 72 };
     static float depth[W * H];
     rlf_rig rig = analytic_rig(W, H);
@@ -139,8 +134,7 @@ static void processing_allocates_nothing(void **state)
         for (int32_t t = 0; t < 40; t++) {
             draw(&rig, depth, t, 5);
             rlf_frame frame = analytic_frame(&rig, depth, t);
-            const rlf_surface *s;
-            assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+            surface_of(stage, &frame);
         }
         assert_int_equal(rlf_alloc_count() - before, 0);
         rlf_reconstruct_destroy(&stage);
@@ -148,9 +142,8 @@ static void processing_allocates_nothing(void **state)
 }
 
 /* A published surface keeps every bit during the next two calls. */
-static void surfaces_stay_as_they_were_published(void **state)
+TEST_CASE(surfaces_stay_as_they_were_published)
 {
-    (void)state;
     enum { W = 96, H = 72, FRAMES = 40 };
     static float depth[W * H];
     rlf_rig rig = analytic_rig(W, H);
@@ -160,7 +153,7 @@ static void surfaces_stay_as_they_were_published(void **state)
     for (int32_t t = 0; t < FRAMES; t++) {
         draw(&rig, depth, t, 31);
         rlf_frame frame = analytic_frame(&rig, depth, t);
-        assert_int_equal(rlf_reconstruct_process(stage, &frame, &published[t]), RLF_OK);
+        published[t] = surface_of(stage, &frame);
         hash[t] = hash_surface(published[t]);
         for (int32_t k = t - RLF_RECONSTRUCT_SURFACES + 1; k <= t; k++) {
             assert_true(k < 0 || hash_surface(published[k]) == hash[k]);
@@ -170,9 +163,8 @@ static void surfaces_stay_as_they_were_published(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
-static void every_size_and_every_rubbish_is_survived(void **state)
+TEST_CASE(every_size_and_every_rubbish_is_survived)
 {
-    (void)state;
     static const int32_t sizes[][2] = {{1, 1},  {2, 1},  {1, 3},   {3, 2},   {5, 5},
                                        {65, 1}, {1, 70}, {67, 66}, {63, 129}};
     for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
@@ -183,8 +175,7 @@ static void every_size_and_every_rubbish_is_survived(void **state)
         for (int profile = 0; profile < 2; profile++) {
             rlf_reconstruct_def def = rlf_reconstruct_def_default((rlf_profile)profile, &rig);
             def.scale_factor = 1;
-            rlf_reconstruct *stage;
-            assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+            rlf_reconstruct *stage = stage_of(&def);
             for (int32_t t = 0; t < 24; t++) {
                 for (int32_t i = 0; i < n; i++) {
                     double u = random_uniform(&r);
@@ -193,8 +184,7 @@ static void every_size_and_every_rubbish_is_survived(void **state)
                     depth[i] = t == 9 ? 0.0f : (t == 10 && i != n / 2 ? 0.0f : valid);
                 }
                 rlf_frame frame = analytic_frame(&rig, depth, t);
-                const rlf_surface *s;
-                assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+                const rlf_surface *s = surface_of(stage, &frame);
                 surface_check(s);
             }
             rlf_reconstruct_destroy(&stage);
@@ -204,9 +194,8 @@ static void every_size_and_every_rubbish_is_survived(void **state)
 }
 
 /* Every normal of a valid pixel is there and faces the camera, in the live profile. */
-static void live_normals_are_complete_and_face_the_camera(void **state)
+TEST_CASE(live_normals_are_complete_and_face_the_camera)
 {
-    (void)state;
     enum { W = 128, H = 96 };
     static float depth[W * H];
     rlf_rig rig = analytic_rig(W, H);
@@ -214,8 +203,7 @@ static void live_normals_are_complete_and_face_the_camera(void **state)
     for (int32_t t = 0; t < 12; t++) {
         draw(&rig, depth, t, 77);
         rlf_frame frame = analytic_frame(&rig, depth, t);
-        const rlf_surface *s;
-        assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+        const rlf_surface *s = surface_of(stage, &frame);
         surface_check(s);
         for (int32_t i = 0; i < W * H; i++) {
             double facing =
@@ -244,9 +232,8 @@ static void expect_refusal(rlf_reconstruct_def def, const char *field)
     assert_null(strchr(rlf_error_text(), '\n'));
 }
 
-static void bad_settings_are_refused_by_name(void **state)
+TEST_CASE(bad_settings_are_refused_by_name)
 {
-    (void)state;
     rlf_rig rig = analytic_rig(64, 48);
     rlf_reconstruct_def good = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
     rlf_reconstruct_def def = good;
@@ -282,9 +269,8 @@ static void bad_settings_are_refused_by_name(void **state)
     rlf_set_assert(NULL, NULL);
 }
 
-static void bad_frames_are_refused(void **state)
+TEST_CASE(bad_frames_are_refused)
 {
-    (void)state;
     static float depth[64 * 48];
     static uint16_t raw[64 * 48];
     rlf_rig rig = analytic_rig(64, 48);
@@ -312,7 +298,7 @@ static void bad_frames_are_refused(void **state)
     frame.rig = &other;
     assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_ERROR_INVALID);
     assert_non_null(strstr(rlf_error_text(), "32 x 24"));
-    assert_int_equal(rlf_reconstruct_process(stage, &good, &s), RLF_OK); /* all missing: fine */
+    s = surface_of(stage, &good); /* all missing: fine */
     assert_int_equal(s->valid_count, 0);
     rlf_reconstruct_destroy(&stage);
 }
@@ -336,9 +322,8 @@ static void short_free(void *context, void *memory)
     free(memory);
 }
 
-static void short_memory_is_an_error(void **state)
+TEST_CASE(short_memory_is_an_error)
 {
-    (void)state;
     rlf_rig rig = analytic_rig(64, 48);
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
     bool was_made = false;
@@ -357,17 +342,15 @@ static void short_memory_is_an_error(void **state)
 }
 
 /* The same place of two planes never falls upon the same lines of a cache that goes by 4 KiB. */
-static void planes_lie_apart_in_the_cache(void **state)
+TEST_CASE(planes_lie_apart_in_the_cache)
 {
-    (void)state;
     enum { W = 64, H = 64 }; /* four pages a plane: packed ones would all begin at one place */
     static float depth[W * H];
     rlf_rig rig = analytic_rig(W, H);
     rlf_reconstruct *stage = make_stage(&rig, RLF_PROFILE_LIVE, NULL);
     draw(&rig, depth, 0, 1);
     rlf_frame frame = analytic_frame(&rig, depth, 0);
-    const rlf_surface *s;
-    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+    const rlf_surface *s = surface_of(stage, &frame);
     const float *plane[] = {s->depth,      s->normal_x,   s->normal_y,   s->normal_z,
                             s->velocity_x, s->velocity_y, s->velocity_z, s->thickness};
     enum { PLANES = sizeof plane / sizeof plane[0] };
@@ -378,21 +361,4 @@ static void planes_lie_apart_in_the_cache(void **state)
         }
     }
     rlf_reconstruct_destroy(&stage);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(results_do_not_depend_on_workers),
-        cmocka_unit_test(scratch_holds_for_its_step_only),
-        cmocka_unit_test(processing_allocates_nothing),
-        cmocka_unit_test(surfaces_stay_as_they_were_published),
-        cmocka_unit_test(every_size_and_every_rubbish_is_survived),
-        cmocka_unit_test(live_normals_are_complete_and_face_the_camera),
-        cmocka_unit_test(bad_settings_are_refused_by_name),
-        cmocka_unit_test(bad_frames_are_refused),
-        cmocka_unit_test(short_memory_is_an_error),
-        cmocka_unit_test(planes_lie_apart_in_the_cache),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,8 @@
 /* The thickness of what stands, against a room whose backs are known: a floor, a wall, and on the
  * floor a ball and a box that shows two sides and its top; with the sensor's noise. */
-#include "analytic.h"
 #include "heavy.h"
+#include "created.h"
+#include "seen_view.h"
 #include "test.h"
 
 #include <string.h>
@@ -50,16 +51,9 @@ static void see_box(int i, rlf_vec3 ray)
 {
     rlf_quat q = rlf_quat_from_axis_angle(rlf_vec3_make(0, 1, 0), -box->heading);
     rlf_vec3 o = rlf_rotate(q, rlf_neg(box->centre)), m = rlf_rotate(q, ray);
-    const double origin[3] = {o.x, o.y, o.z}, way[3] = {m.x, m.y, m.z};
-    const double half[3] = {box->half.x, box->half.y, box->half.z};
-    double near = 0.0, far = 1e9;
-    for (int k = 0; k < 3; k++) {
-        double inverse = 1.0 / (way[k] != 0.0 ? way[k] : 1e-12);
-        double t0 = (-half[k] - origin[k]) * inverse, t1 = (half[k] - origin[k]) * inverse;
-        near = rlf_max(near, rlf_min(t0, t1));
-        far = rlf_min(far, rlf_max(t0, t1));
-    }
-    if (near < far) {
+    const rlf_aabb upright = {rlf_neg(box->half), box->half};
+    double near, far;
+    if (box_ray(&upright, o, m, &near, &far)) {
         hit(i, BOX, near, far);
     }
 }
@@ -102,20 +96,17 @@ static void open_show(show *s, rlf_pool *pool)
     def.pool = pool;
     s->random = (analytic_random){23};
     s->frame = 0;
-    assert_int_equal(rlf_reconstruct_create(&def, &s->stage), RLF_OK);
+    s->stage = stage_of(&def);
 }
 
 static const rlf_surface *next(show *s)
 {
     static float noisy[COUNT];
-    const rlf_surface *surface = NULL;
     for (int i = 0; i < COUNT; i++) {
         double z = depth[i];
         noisy[i] = (float)(z + rlf_depth_noise_sigma(&s->rig.noise, z) * random_normal(&s->random));
     }
-    rlf_frame f = analytic_frame(&s->rig, noisy, s->frame++);
-    assert_int_equal(rlf_reconstruct_process(s->stage, &f, &surface), RLF_OK);
-    return surface;
+    return seen_depth_process(&s->rig, noisy, s->stage, s->frame++);
 }
 
 static const rlf_surface *watch(show *s, int frames)
@@ -127,9 +118,8 @@ static const rlf_surface *watch(show *s, int frames)
     return surface;
 }
 
-static void backs_of_what_stands_are_found(void **state)
+TEST_CASE(backs_of_what_stands_are_found)
 {
-    (void)state;
     show s;
     open_show(&s, NULL);
     see(&s.rig, true);
@@ -181,22 +171,19 @@ static double watch_box(const standing_box *what)
 }
 
 /* Depth jumps by five centimetres from pixel to pixel there, and yet it is one face. */
-static void a_side_at_a_low_angle_shows_how_deep_a_box_is(void **state)
+TEST_CASE(a_side_at_a_low_angle_shows_how_deep_a_box_is)
 {
-    (void)state;
     assert_true(watch_box(&high_box) < 0.035);
 }
 
 /* What is seen of it ends at the border, and it does not. */
-static void a_box_that_the_border_cuts_goes_on(void **state)
+TEST_CASE(a_box_that_the_border_cuts_goes_on)
 {
-    (void)state;
     assert_true(watch_box(&cut_box) < 0.02);
 }
 
-static void what_has_left_has_no_back(void **state)
+TEST_CASE(what_has_left_has_no_back)
 {
-    (void)state;
     show s;
     open_show(&s, NULL);
     see(&s.rig, true);
@@ -222,9 +209,8 @@ static int count_known(const rlf_surface *surface)
 }
 
 /* A ball close to the wall: that is hardly farther than its back, and is another thing. */
-static void a_wall_is_not_thick_where_a_ball_was(void **state)
+TEST_CASE(a_wall_is_not_thick_where_a_ball_was)
 {
-    (void)state;
     if (!heavy_is_whole()) {
         skip(); /* the same code as what_has_left_has_no_back */
     }
@@ -252,9 +238,8 @@ static void a_wall_is_not_thick_where_a_ball_was(void **state)
 }
 
 /* A surface keeps its plane while it is valid, also while a new one is published. */
-static void planes_of_valid_surfaces_stay(void **state)
+TEST_CASE(planes_of_valid_surfaces_stay)
 {
-    (void)state;
     static float kept[COUNT];
     show s;
     int changes = 0;
@@ -277,17 +262,15 @@ static void planes_of_valid_surfaces_stay(void **state)
     rlf_reconstruct_destroy(&s.stage);
 }
 
-static void workers_change_nothing(void **state)
+TEST_CASE(workers_change_nothing)
 {
-    (void)state;
     static float one[COUNT];
     if (!heavy_is_whole()) {
-        skip(); /* unit.surface_thickness has them with sanitizers */
+        skip(); /* unit.surface_stage has them with sanitizers */
     }
     for (int32_t workers = 1; workers <= 3; workers += 2) {
-        rlf_pool *pool = NULL;
+        rlf_pool *pool = pool_of(workers);
         show s;
-        assert_int_equal(rlf_pool_create(workers, &pool), RLF_OK);
         open_show(&s, pool);
         see(&s.rig, true);
         const rlf_surface *surface = watch(&s, FRAMES);
@@ -299,18 +282,4 @@ static void workers_change_nothing(void **state)
         rlf_reconstruct_destroy(&s.stage);
         rlf_pool_destroy(&pool);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(backs_of_what_stands_are_found),
-        cmocka_unit_test(a_side_at_a_low_angle_shows_how_deep_a_box_is),
-        cmocka_unit_test(a_box_that_the_border_cuts_goes_on),
-        cmocka_unit_test(what_has_left_has_no_back),
-        cmocka_unit_test(a_wall_is_not_thick_where_a_ball_was),
-        cmocka_unit_test(planes_of_valid_surfaces_stay),
-        cmocka_unit_test(workers_change_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

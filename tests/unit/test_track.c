@@ -117,10 +117,9 @@ static double turn_between(rlf_quat a, rlf_quat b)
     return 2.0 * rlf_length(rlf_vec3_make(q.x, q.y, q.z)) * 180.0 / RLF_PI;
 }
 
-static void test_a_corner_gives_the_pose(void **state)
+TEST_CASE(test_a_corner_gives_the_pose)
 {
     const rlf_pose T = moved();
-    (void)state;
     begin(corner, 3, &T);
     const rlf_track_result found = align();
     assert_int_equal(found.health, RLF_TRACK_GOOD);
@@ -133,10 +132,9 @@ static void test_a_corner_gives_the_pose(void **state)
 }
 
 /* A blank wall says nothing of the ways along it, and the pose stays where it was in them. */
-static void test_a_plane_alone_is_weak(void **state)
+TEST_CASE(test_a_plane_alone_is_weak)
 {
     const rlf_pose T = {{0.03, 0.0, 0.02}, rlf_quat_identity()};
-    (void)state;
     begin(corner, 1, &T);
     const rlf_track_result found = align();
     assert_int_equal(found.health, RLF_TRACK_WEAK);
@@ -148,10 +146,9 @@ static void test_a_plane_alone_is_weak(void **state)
 
 /* A seventh of the view goes to the side and nearer, as a person does. With the mask it does not
  * pull at all; without, what is far in front of the room is left out. */
-static void test_a_mover_does_not_pull(void **state)
+TEST_CASE(test_a_mover_does_not_pull)
 {
     const rlf_pose T = moved();
-    (void)state;
     for (int is_masked = 0; is_masked < 2; is_masked++) {
         begin(corner, 3, &T);
         for (int32_t i = 0; i < PIXELS; i++) {
@@ -169,10 +166,9 @@ static void test_a_mover_does_not_pull(void **state)
 
 /* Where depth settles the pose brightness that says otherwise changes nothing; along a wall it is
  * all that there is. */
-static void test_brightness_tells_what_depth_does_not(void **state)
+TEST_CASE(test_brightness_tells_what_depth_does_not)
 {
     const rlf_pose T = moved(), here = rlf_pose_identity();
-    (void)state;
     begin(corner, 3, &T);
     const rlf_track_result alone = align();
     paint(6.0);
@@ -190,11 +186,10 @@ static void test_brightness_tells_what_depth_does_not(void **state)
 }
 
 /* Noise moves nothing: the pose is the prediction's, bit for bit. */
-static void test_a_camera_at_rest_stays(void **state)
+TEST_CASE(test_a_camera_at_rest_stays)
 {
     const rlf_pose here = rlf_pose_identity();
     uint32_t hash = 1;
-    (void)state;
     begin(corner, 3, &here);
     for (int32_t i = 0; i < PIXELS; i++) {
         hash = hash * 1664525u + 1013904223u;
@@ -206,10 +201,9 @@ static void test_a_camera_at_rest_stays(void **state)
 }
 
 /* A guess that nothing confirms is not believed: along a wall the camera stays where it was. */
-static void test_a_guess_along_a_wall_is_not_kept(void **state)
+TEST_CASE(test_a_guess_along_a_wall_is_not_kept)
 {
     const rlf_pose here = rlf_pose_identity(), guess = {{0.03, 0.0, 0.0}, rlf_quat_identity()};
-    (void)state;
     begin(corner, 1, &here);
     const rlf_track_result found = align_from(guess);
     assert_int_equal(found.health, RLF_TRACK_WEAK);
@@ -217,10 +211,9 @@ static void test_a_guess_along_a_wall_is_not_kept(void **state)
     rlf_tracker_destroy(&f.tracker);
 }
 
-static void test_nothing_seen_is_lost(void **state)
+TEST_CASE(test_nothing_seen_is_lost)
 {
     const rlf_pose T = moved();
-    (void)state;
     begin(corner, 3, &T);
     memset(f.seen, 0, sizeof(f.seen));
     assert_int_equal(align().health, RLF_TRACK_LOST);
@@ -231,10 +224,9 @@ static void test_nothing_seen_is_lost(void **state)
     rlf_tracker_destroy(&f.tracker);
 }
 
-static void test_no_pose_is_refused(void **state)
+TEST_CASE(test_no_pose_is_refused)
 {
     const rlf_pose T = moved();
-    (void)state;
     begin(corner, 3, &T);
     const rlf_track_view view = {f.seen, NULL, NULL};
     const rlf_pose bad[] = {{{NAN, 0, 0}, rlf_quat_identity()}, {{0, 0, 0}, {0, 0, 0, 0}}};
@@ -247,10 +239,9 @@ static void test_no_pose_is_refused(void **state)
 }
 
 /* Two views that do not look alike: each is recalled by itself. */
-static void test_a_view_is_recalled(void **state)
+TEST_CASE(test_a_view_is_recalled)
 {
     const rlf_pose T = moved();
-    (void)state;
     begin(corner, 3, &T);
     rlf_track_result at = {.T_world_camera = rlf_pose_identity(), .health = RLF_TRACK_GOOD};
     rlf_track_view view = {f.depth, NULL, NULL};
@@ -271,10 +262,9 @@ static void test_a_view_is_recalled(void **state)
 }
 
 /* Constant velocity, but not over a jump in time. */
-static void test_the_camera_goes_on_as_it_did(void **state)
+TEST_CASE(test_the_camera_goes_on_as_it_did)
 {
     const rlf_pose T = moved();
-    (void)state;
     begin(corner, 3, &T);
     rlf_track_result at = {.T_world_camera = rlf_pose_identity(), .health = RLF_TRACK_WEAK};
     rlf_tracker_accept(f.tracker, NULL, 0, &at);
@@ -286,21 +276,4 @@ static void test_the_camera_goes_on_as_it_did(void **state)
     assert_float_equal(rlf_tracker_guess(f.tracker, INT64_MAX).p.x, 0.01, 1e-9);
     assert_float_equal(rlf_tracker_guess(f.tracker, INT64_MIN).p.x, 0.01, 1e-9);
     rlf_tracker_destroy(&f.tracker);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_corner_gives_the_pose),
-        cmocka_unit_test(test_a_plane_alone_is_weak),
-        cmocka_unit_test(test_a_mover_does_not_pull),
-        cmocka_unit_test(test_brightness_tells_what_depth_does_not),
-        cmocka_unit_test(test_a_camera_at_rest_stays),
-        cmocka_unit_test(test_a_guess_along_a_wall_is_not_kept),
-        cmocka_unit_test(test_nothing_seen_is_lost),
-        cmocka_unit_test(test_no_pose_is_refused),
-        cmocka_unit_test(test_a_view_is_recalled),
-        cmocka_unit_test(test_the_camera_goes_on_as_it_did),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }
