@@ -42,4 +42,15 @@ static inline const rlf_body_state *body_at(const rlf_world *world, int32_t inde
     return &rlf_world_get_snapshot(world)->bodies[index];
 }
 
+/* What one body by itself and without weight has become after so many frames of 1/30 s. */
+static inline rlf_body_state alone_after(const rlf_body_def *def, rlf_grid *grid, int frames)
+{
+    rlf_world *alone = small_world(rlf_vec3_make(0, 0, 0));
+    add_body(alone, def);
+    advance_frames(alone, grid, frames, 1.0 / 30);
+    const rlf_body_state state = *body_at(alone, 0);
+    rlf_world_destroy(&alone);
+    return state;
+}
+
 #endif

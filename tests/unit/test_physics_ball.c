@@ -9,23 +9,18 @@
 
 #define RADIUS 0.06
 
+static const rlf_vec3 ahead = {0, 0, -1}, left = {-1, 0, 0}, right = {1, 0, 0}; /* of faces */
+
 /* Direction in which a ball without friction and with restitution 0.8 flies 0.5 s after. */
 static rlf_vec3 thrown(rlf_vec3 from, rlf_vec3 velocity, double radius)
 {
-    rlf_world_def world_def = small_world_def();
-    world_def.gravity = rlf_vec3_make(0, 0, 0);
-    rlf_world *world = world_of(&world_def);
     rlf_body_def def = rlf_body_def_default();
     def.shape = (rlf_shape){.type = RLF_SHAPE_SPHERE, .radius = radius};
     def.position = from;
     def.velocity = velocity;
     def.restitution = 0.8;
     def.friction = 0.0;
-    add_body(world, &def);
-    advance_frames(world, &fixture->grid, 15, 1.0 / 30);
-    rlf_vec3 v = rlf_world_get_snapshot(world)->bodies[0].velocity;
-    rlf_world_destroy(&world);
-    return v;
+    return alone_after(&def, &fixture->grid, 15).velocity;
 }
 
 static double degrees_between(rlf_vec3 a, rlf_vec3 b)
@@ -33,24 +28,44 @@ static double degrees_between(rlf_vec3 a, rlf_vec3 b)
     return atan2(rlf_length(rlf_cross(a, b)), rlf_dot(a, b)) * 180.0 / RLF_PI;
 }
 
+static void set_wall(void)
+{
+    const grid_plane wall = grid_wall(4);
+    grid_fixture_set_room(fixture, &wall, 1);
+}
+
+static void show(int32_t i, double z, rlf_vec3 n)
+{
+    grid_fixture_paint(fixture, GRID_BACKGROUND, i, z, n);
+}
+
+/* What moves or stands before it, as thick as the camera sees it. */
+static void show_front(int32_t i, bool is_there, double z, rlf_vec3 n, double thickness)
+{
+    fixture->mask[i] = is_there;
+    fixture->planes[GRID_THICKNESS][i] = (float)thickness;
+    grid_fixture_paint(fixture, GRID_FOREGROUND, i, z, n);
+}
+
+/* A way after a blow of restitution 0.8 on a face. */
+static rlf_vec3 reflected(rlf_vec3 v, rlf_vec3 n)
+{
+    return rlf_mad(v, n, -1.8 * rlf_dot(n, v));
+}
+
 /* A solid ball of the background before a wall at 4 m. */
 static void set_bulge(rlf_vec3 centre, double radius)
 {
-    grid_plane wall = grid_wall(4);
-    grid_fixture_set_room(fixture, &wall, 1);
+    set_wall();
     for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
-        rlf_vec3 m = rlf_vec3_make(fixture->planes[0][i], fixture->planes[1][i], 1.0);
+        rlf_vec3 m = grid_fixture_ray(fixture, i);
         double a = rlf_dot(m, m), b = rlf_dot(m, centre);
         double root = b * b - a * (rlf_dot(centre, centre) - radius * radius);
         if (root < 0.0) {
             continue;
         }
         double z = (b - sqrt(root)) / a;
-        rlf_vec3 n = rlf_scale(rlf_sub(rlf_scale(m, z), centre), 1.0 / radius);
-        fixture->planes[2][i] = (float)z;
-        fixture->planes[3][i] = (float)n.x;
-        fixture->planes[4][i] = (float)n.y;
-        fixture->planes[5][i] = (float)n.z;
+        show(i, z, rlf_scale(rlf_sub(rlf_scale(m, z), centre), 1.0 / radius));
     }
     fixture->grid.background.default_thickness = 0.3;
 }
@@ -69,7 +84,7 @@ TEST_CASE(bounces_off_a_bulge_as_off_a_ball)
             rlf_vec3 from = rlf_vec3_make(CENTRE.x + off.x, CENTRE.y + off.y, 1.6);
             double depth = sqrt((radius + RADIUS) * (radius + RADIUS) - rlf_dot(off, off));
             rlf_vec3 n = rlf_normalize(rlf_vec3_make(off.x, off.y, -depth));
-            rlf_vec3 expected = rlf_mad(v, n, -1.8 * rlf_dot(n, v));
+            rlf_vec3 expected = reflected(v, n);
             worst = fmax(worst, degrees_between(thrown(from, v, RADIUS), expected));
         }
         print_message("bulge of %.2f m: direction off by %.2f deg at most\n", radius, worst);
@@ -93,9 +108,7 @@ static void blur_normals(void)
                 sum = rlf_add(sum, rlf_vec3_make(sharp[0][k], sharp[1][k], sharp[2][k]));
             }
             sum = rlf_normalize(sum);
-            fixture->planes[3][y * GRID_W + x] = (float)sum.x;
-            fixture->planes[4][y * GRID_W + x] = (float)sum.y;
-            fixture->planes[5][y * GRID_W + x] = (float)sum.z;
+            show(y * GRID_W + x, fixture->planes[GRID_BACKGROUND][y * GRID_W + x], sum);
         }
     }
 }
@@ -103,10 +116,9 @@ static void blur_normals(void)
 /* The upright edge at `edge` of a big box of the background, of which two faces are seen. */
 static void set_box_edge(rlf_vec3 edge, const rlf_vec3 normals[2])
 {
-    grid_plane wall = grid_wall(4);
-    grid_fixture_set_room(fixture, &wall, 1);
+    set_wall();
     for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
-        rlf_vec3 m = rlf_vec3_make(fixture->planes[0][i], fixture->planes[1][i], 1.0);
+        rlf_vec3 m = grid_fixture_ray(fixture, i);
         double z[2];
         for (int k = 0; k < 2; k++) {
             double slope = rlf_dot(normals[k], m);
@@ -114,10 +126,7 @@ static void set_box_edge(rlf_vec3 edge, const rlf_vec3 normals[2])
         }
         int face = z[0] > z[1] ? 0 : 1;
         if (z[face] < 3.9) {
-            fixture->planes[2][i] = (float)z[face];
-            fixture->planes[3][i] = (float)normals[face].x;
-            fixture->planes[4][i] = (float)normals[face].y;
-            fixture->planes[5][i] = (float)normals[face].z;
+            show(i, z[face], normals[face]);
         }
     }
     fixture->grid.background.default_thickness = 0.3;
@@ -134,7 +143,7 @@ static void throw_at_edge(rlf_vec3 edge, const rlf_vec3 faces[2], double worst[2
             rlf_normalize(rlf_add(rlf_scale(faces[0], share), rlf_scale(faces[1], 1.0 - share)));
         rlf_vec3 v = rlf_add(rlf_scale(n, -3.0), rlf_vec3_make(0, i % 2 == 0 ? 1.0 : -1.5, 0));
         rlf_vec3 at = rlf_mad(rlf_vec3_make(edge.x, 0.03 * (i / 6 - 2), edge.z), n, RADIUS);
-        rlf_vec3 expected = rlf_mad(v, n, -1.8 * rlf_dot(n, v));
+        rlf_vec3 expected = reflected(v, n);
         rlf_vec3 out = thrown(rlf_mad(at, v, -0.2), v, RADIUS);
         worst[0] = fmax(worst[0], degrees_between(out, expected));
         worst[1] = fmax(worst[1], fabs(rlf_normalize(out).y - rlf_normalize(expected).y));
@@ -173,10 +182,9 @@ static turned_cube make_cube(double yaw)
 /* Before a wall at 4 m. */
 static void set_cube(const turned_cube *cube)
 {
-    grid_plane wall = grid_wall(4);
-    grid_fixture_set_room(fixture, &wall, 1);
+    set_wall();
     for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
-        rlf_vec3 m = rlf_vec3_make(fixture->planes[0][i], fixture->planes[1][i], 1.0), n = m;
+        rlf_vec3 m = grid_fixture_ray(fixture, i), n = m;
         double in = 0.0, out = 9.0;
         for (int k = 0; k < 3; k++) {
             double slope = rlf_dot(cube->axes[k], m), side = slope > 0.0 ? -1.0 : 1.0;
@@ -187,10 +195,7 @@ static void set_cube(const turned_cube *cube)
             out = fmin(out, middle + reach);
         }
         if (in < out) {
-            fixture->planes[2][i] = (float)in;
-            fixture->planes[3][i] = (float)n.x;
-            fixture->planes[4][i] = (float)n.y;
-            fixture->planes[5][i] = (float)n.z;
+            show(i, in, n);
         }
     }
     fixture->grid.background.default_thickness = 0.16;
@@ -216,7 +221,7 @@ static rlf_vec3 turned_back(const turned_cube *cube, rlf_vec3 p, rlf_vec3 v, dou
         gap = distance_to(cube, p, &n) - radius;
         p = rlf_mad(p, v, rlf_max(gap, 0.0) / rlf_length(v));
     }
-    return rlf_mad(v, n, -1.8 * rlf_dot(n, v));
+    return reflected(v, n);
 }
 
 /* At a corner of the top, or at up to 5 cm from it, whose sides along two axes have these signs. */
@@ -252,21 +257,19 @@ TEST_CASE(bounces_off_a_cubes_corners_where_they_are)
 /* The rim of a board that faces the camera: from 20 to 70 % of the radius beyond it. */
 TEST_CASE(bounces_off_a_rim_where_it_is)
 {
-    grid_plane wall = grid_wall(4);
-    grid_fixture_set_room(fixture, &wall, 1);
+    set_wall();
     grid_fixture_set_slab(fixture, grid_wall(2), rlf_vec3_make(0, 0, 2), rlf_vec3_make(0.2, 0.3, 0),
                           0.02, rlf_vec3_make(0, 0, 0));
     for (int i = 0; i < 6; i++) {
         double beyond = (0.2 + 0.1 * i) * RADIUS;
         rlf_vec3 v = {0, 0, 3};
         rlf_vec3 n = {beyond / RADIUS, 0, -sqrt(1.0 - beyond * beyond / (RADIUS * RADIUS))};
-        rlf_vec3 expected = rlf_mad(v, n, -1.8 * rlf_dot(n, v));
+        rlf_vec3 expected = reflected(v, n);
         double error =
             degrees_between(thrown(rlf_vec3_make(0.2 + beyond, 0.02, 1.5), v, RADIUS), expected);
         print_message("rim, %.0f mm beyond it: off by %.1f deg\n", 1e3 * beyond, error);
         assert_true(error < 10.0); /* half a pixel is 2.7 mm: 3 to 4 deg of normal */
     }
-    memset(fixture->mask, 0, (size_t)GRID_W * GRID_H);
 }
 
 /* Pixels are 10 cm apart on a floor 0.5 m below the camera and 4 m away: none may be missed. */
@@ -284,16 +287,12 @@ TEST_CASE(bounces_off_a_floor_seen_at_a_low_angle)
 /* A block's front at 2 m and its side, seen at a low angle, that comes out 1 cm too near. */
 static void set_block(double side_x)
 {
-    grid_plane wall = grid_wall(4);
-    grid_fixture_set_room(fixture, &wall, 1);
+    set_wall();
     for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
         double mx = fixture->planes[0][i], z = side_x / mx;
         bool is_front = mx > -0.3 && 2.0 * mx < side_x;
         if (is_front || (mx < 0.0 && z > 2.0 && z < 2.4)) {
-            fixture->planes[2][i] = (float)(is_front ? 2.0 : z - 0.01);
-            fixture->planes[3][i] = is_front ? 0.0f : 1.0f;
-            fixture->planes[4][i] = 0.0f;
-            fixture->planes[5][i] = is_front ? -1.0f : 0.0f;
+            show(i, is_front ? 2.0 : z - 0.01, is_front ? ahead : right);
         }
     }
     fixture->grid.background.default_thickness = 0.15;
@@ -328,16 +327,12 @@ TEST_CASE(bounces_off_a_front_behind_its_edge)
 /* A leg 4 cm wide and deep, of whose side at x = side_x one or two columns are seen. */
 static void set_leg(double side_x)
 {
-    grid_plane wall = grid_wall(4);
-    grid_fixture_set_room(fixture, &wall, 1);
+    set_wall();
     for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
         double mx = fixture->planes[0][i], z = side_x / mx;
         bool is_front = 2.58 * mx > side_x && 2.58 * mx < side_x + 0.04;
         if (is_front || (mx > 0.0 && z > 2.58 && z < 2.62)) {
-            fixture->planes[2][i] = (float)(is_front ? 2.58 : z);
-            fixture->planes[3][i] = is_front ? 0.0f : -1.0f;
-            fixture->planes[4][i] = 0.0f;
-            fixture->planes[5][i] = is_front ? -1.0f : 0.0f;
+            show(i, is_front ? 2.58 : z, is_front ? ahead : left);
         }
     }
     fixture->grid.background.default_thickness = 0.15;
@@ -367,17 +362,12 @@ static void set_thick(rlf_vec3 centre, double radius)
     grid_fixture_set_slab(fixture, grid_wall(2), rlf_vec3_make(0, 0, 2), rlf_vec3_make(9, 9, 0),
                           0.3, rlf_vec3_make(0, 0, 0));
     for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
-        rlf_vec3 m = rlf_vec3_make(fixture->planes[0][i], fixture->planes[1][i], 1.0);
+        rlf_vec3 m = grid_fixture_ray(fixture, i);
         double a = rlf_dot(m, m), b = rlf_dot(m, centre);
         double square = b * b - a * (rlf_dot(centre, centre) - radius * radius);
-        fixture->mask[i] = square > 0.0;
         double root = sqrt(fmax(square, 0.0)), z = (b - root) / a;
         rlf_vec3 n = rlf_scale(rlf_sub(rlf_scale(m, z), centre), 1.0 / radius);
-        fixture->planes[6][i] = (float)z;
-        fixture->planes[7][i] = (float)n.x;
-        fixture->planes[8][i] = (float)n.y;
-        fixture->planes[9][i] = (float)n.z;
-        fixture->planes[13][i] = (float)(2.0 * root / a);
+        show_front(i, square > 0.0, z, n, 2.0 * root / a);
     }
 }
 
@@ -415,30 +405,24 @@ TEST_CASE(bounces_off_a_noisy_bulge_that_moves)
         n.z = -sqrt(1.0 - n.x * n.x - n.y * n.y);
         rlf_vec3 v = {0, 0, 2}, at = rlf_mad(centre, n, LIMB + RADIUS);
         rlf_vec3 out = thrown(rlf_mad(at, v, -0.1), v, RADIUS);
-        sum += degrees_between(out, rlf_mad(v, n, -1.8 * rlf_dot(n, v)));
+        sum += degrees_between(out, reflected(v, n));
     }
     print_message("noisy bulge: direction off by %.1f deg on average\n", sum / 49);
     assert_true(sum / 49 < 4.5);
-    memset(fixture->mask, 0, (size_t)GRID_W * GRID_H);
 }
 
 /* The foreground becomes what the camera sees of an upright limb. */
 static void set_limb(rlf_vec3 axis, double radius)
 {
-    grid_plane wall = grid_wall(4);
-    grid_fixture_set_room(fixture, &wall, 1);
+    set_wall();
     grid_fixture_set_slab(fixture, grid_wall(2), rlf_vec3_make(0, 0, 2), rlf_vec3_make(9, 9, 0),
                           0.3, rlf_vec3_make(0, 0, 0));
     for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
         double m = fixture->planes[0][i], a = m * m + 1.0, b = m * axis.x + axis.z;
         double square = b * b - a * (axis.x * axis.x + axis.z * axis.z - radius * radius);
-        fixture->mask[i] = square > 0.0;
         double root = sqrt(fmax(square, 0.0)), z = (b - root) / a;
-        fixture->planes[6][i] = (float)z;
-        fixture->planes[7][i] = (float)((m * z - axis.x) / radius);
-        fixture->planes[8][i] = 0.0f;
-        fixture->planes[9][i] = (float)((z - axis.z) / radius);
-        fixture->planes[13][i] = (float)(2.0 * root / a);
+        rlf_vec3 n = {(m * z - axis.x) / radius, 0.0, (z - axis.z) / radius};
+        show_front(i, square > 0.0, z, n, 2.0 * root / a);
     }
 }
 
@@ -459,7 +443,6 @@ TEST_CASE(bounces_off_a_limbs_flank)
     }
     print_message("flank: direction off by %.1f deg on average\n", sum / 40);
     assert_true(sum / 40 < 1.0);
-    memset(fixture->mask, 0, (size_t)GRID_W * GRID_H);
 }
 
 /* From behind, where the front is out of the ball's reach. */
@@ -467,8 +450,7 @@ TEST_CASE(bounces_off_the_back_of_something_thick)
 {
     const rlf_vec3 CENTRE = {0, 0, 2.4};
     const double BULGE = 0.25;
-    grid_plane wall = grid_wall(4);
-    grid_fixture_set_room(fixture, &wall, 1);
+    set_wall();
     set_thick(CENTRE, BULGE);
     double worst = 0.0;
     for (int i = 0; i < 8; i++) {
@@ -476,12 +458,11 @@ TEST_CASE(bounces_off_the_back_of_something_thick)
         double off = 0.02 * i - 0.07, sum = BULGE + RADIUS;
         rlf_vec3 n = {off / sum, 0, sqrt(1.0 - off * off / (sum * sum))};
         rlf_vec3 from = rlf_mad(rlf_mad(CENTRE, n, sum), v, -0.2);
-        rlf_vec3 expected = rlf_mad(v, n, -1.8 * rlf_dot(n, v));
+        rlf_vec3 expected = reflected(v, n);
         worst = fmax(worst, degrees_between(thrown(from, v, RADIUS), expected));
     }
     print_message("back: direction off by %.1f deg at most\n", worst);
     assert_true(worst < 10.0);
-    memset(fixture->mask, 0, (size_t)GRID_W * GRID_H);
 }
 
 TEST_EACH(set_up, tear_down)

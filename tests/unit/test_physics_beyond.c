@@ -38,29 +38,30 @@ static double slide(rlf_shape_type type, double z)
     return way.p.x;
 }
 
+static void expect_leg(double z)
+{
+    assert_true(slide(RLF_SHAPE_SPHERE, z) < -LEG_SIDE - RADIUS + 0.01);
+    assert_true(slide(RLF_SHAPE_BOX, z) < -LEG_SIDE - RADIUS + 0.01);
+}
+
+static void expect_air(double z)
+{
+    assert_true(slide(RLF_SHAPE_SPHERE, z) > 0.3);
+    assert_true(slide(RLF_SHAPE_BOX, z) > 0.3);
+}
+
 TEST_CASE(leg_goes_on_below_the_picture)
 {
     paint(GRID_H);
-    assert_true(slide(RLF_SHAPE_SPHERE, LEG_Z + 0.02) < -LEG_SIDE - RADIUS + 0.01);
-    assert_true(slide(RLF_SHAPE_BOX, LEG_Z + 0.02) < -LEG_SIDE - RADIUS + 0.01);
-    grid_room_destroy(NULL);
-}
-
-TEST_CASE(air_before_it_is_free)
-{
-    paint(GRID_H);
-    assert_true(slide(RLF_SHAPE_SPHERE, LEG_Z - 0.1) > 0.3);
-    assert_true(slide(RLF_SHAPE_BOX, LEG_Z - 0.1) > 0.3);
-    grid_room_destroy(NULL);
+    expect_leg(LEG_Z + 0.02);
+    expect_air(LEG_Z - 0.1);
 }
 
 /* Below what ends in the picture bodies pass. */
 TEST_CASE(what_hangs_does_not)
 {
     paint(GRID_H - 8);
-    assert_true(slide(RLF_SHAPE_SPHERE, LEG_Z + 0.02) > 0.3);
-    assert_true(slide(RLF_SHAPE_BOX, LEG_Z + 0.02) > 0.3);
-    grid_room_destroy(NULL);
+    expect_air(LEG_Z + 0.02);
 }
 
 /* What is down decides, and not which of the picture's borders is the lower one. */
@@ -68,15 +69,11 @@ TEST_CASE(a_camera_may_hang_upside_down)
 {
     paint(GRID_H);
     grid_room_turn_over();
-    assert_true(slide(RLF_SHAPE_SPHERE, LEG_Z + 0.02) < -LEG_SIDE - RADIUS + 0.01);
-    assert_true(slide(RLF_SHAPE_BOX, LEG_Z + 0.02) < -LEG_SIDE - RADIUS + 0.01);
-    assert_true(slide(RLF_SHAPE_BOX, LEG_Z - 0.1) > 0.3);
-    grid_room_destroy(NULL);
+    expect_leg(LEG_Z + 0.02);
+    expect_air(LEG_Z - 0.1);
     paint(GRID_H - 8);
     grid_room_turn_over();
-    assert_true(slide(RLF_SHAPE_SPHERE, LEG_Z + 0.02) > 0.3);
-    assert_true(slide(RLF_SHAPE_BOX, LEG_Z + 0.02) > 0.3);
-    grid_room_destroy(NULL);
+    expect_air(LEG_Z + 0.02);
 }
 
 enum { LEFT, RIGHT, TOP, SIDES };
@@ -121,14 +118,24 @@ static double fly_at(rlf_shape_type type, int side, double beside)
     return way.farthest_z;
 }
 
+static void expect_front(int side, double beside)
+{
+    assert_true(fly_at(RLF_SHAPE_SPHERE, side, beside) < FRONT_Z - RADIUS + 0.01);
+    assert_true(fly_at(RLF_SHAPE_BOX, side, beside) < FRONT_Z - RADIUS + 0.01);
+}
+
+static void expect_no_front(int side, double beside)
+{
+    assert_true(fly_at(RLF_SHAPE_SPHERE, side, beside) > FRONT_Z + 0.5);
+    assert_true(fly_at(RLF_SHAPE_BOX, side, beside) > FRONT_Z + 0.5);
+}
+
 TEST_CASE(a_front_goes_on_beyond_the_picture)
 {
     for (int side = 0; side < SIDES; side++) {
         paint_front(side, 0);
-        assert_true(fly_at(RLF_SHAPE_SPHERE, side, 0.1) < FRONT_Z - RADIUS + 0.01);
-        assert_true(fly_at(RLF_SHAPE_BOX, side, 0.1) < FRONT_Z - RADIUS + 0.01);
-        assert_true(fly_at(RLF_SHAPE_BOX, side, 0.5) > FRONT_Z + 0.5); /* nobody knows */
-        grid_room_destroy(NULL);
+        expect_front(side, 0.1);
+        expect_no_front(side, 0.5); /* nobody knows */
     }
 }
 
@@ -136,9 +143,7 @@ TEST_CASE(what_ends_before_the_border_does_not)
 {
     for (int side = 0; side < SIDES; side++) {
         paint_front(side, 8);
-        assert_true(fly_at(RLF_SHAPE_SPHERE, side, 0.1) > FRONT_Z + 0.5);
-        assert_true(fly_at(RLF_SHAPE_BOX, side, 0.1) > FRONT_Z + 0.5);
-        grid_room_destroy(NULL);
+        expect_no_front(side, 0.1);
     }
 }
 
@@ -161,11 +166,8 @@ TEST_CASE(a_front_goes_on_in_a_ring)
     for (int side = 0; side < SIDES; side++) {
         paint_ring(side, RING);
         for (int32_t k = -10; k <= RING + 5; k += 5) {
-            double beside = -k * FRONT_Z / GRID_F;
-            assert_true(fly_at(RLF_SHAPE_SPHERE, side, beside) < FRONT_Z - RADIUS + 0.01);
-            assert_true(fly_at(RLF_SHAPE_BOX, side, beside) < FRONT_Z - RADIUS + 0.01);
+            expect_front(side, -k * FRONT_Z / GRID_F);
         }
-        grid_room_destroy(NULL);
     }
 }
 
@@ -174,9 +176,7 @@ TEST_CASE(a_front_ends_at_a_hole)
 {
     for (int side = 0; side < SIDES; side++) {
         paint_ring(side, 75);
-        assert_true(fly_at(RLF_SHAPE_SPHERE, side, -0.12) > FRONT_Z + 0.5);
-        assert_true(fly_at(RLF_SHAPE_BOX, side, -0.12) > FRONT_Z + 0.5);
-        grid_room_destroy(NULL);
+        expect_no_front(side, -0.12);
     }
 }
 
@@ -184,9 +184,8 @@ TEST_CASE(without_a_background_all_is_free)
 {
     grid_room_create();
     grid_room->grid.background.depth = NULL;
-    assert_true(fly_at(RLF_SHAPE_BOX, LEFT, 0.1) > FRONT_Z + 0.5);
-    assert_true(fly_at(RLF_SHAPE_BOX, LEFT, -0.1) > FRONT_Z + 0.5);
-    grid_room_destroy(NULL);
+    expect_no_front(LEFT, 0.1);
+    expect_no_front(LEFT, -0.1);
 }
 
 /* The floor is level about 3 m from the camera, and rises towards it by that slope. */
@@ -228,5 +227,6 @@ TEST_CASE(a_new_fit_throws_nothing)
     }
     assert_true(y < first - 0.02 && y > first - 0.028);
     rlf_world_destroy(&world);
-    grid_room_destroy(NULL);
 }
+
+TEST_EACH(NULL, grid_room_destroy)

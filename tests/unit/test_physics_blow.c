@@ -88,11 +88,4 @@ TEST_CASE(a_stopped_centre_met_the_wall)
     assert_true(body.surface[0].met_normal.z < -0.999);
 }
 
-static int set_up(void **state)
-{
-    (void)state;
-    grid_room_create();
-    return 0;
-}
-
-TEST_GROUP(set_up, grid_room_destroy)
+TEST_GROUP(grid_room_start, grid_room_destroy)

@@ -8,13 +8,6 @@
 #define SECONDS 4
 #define MOVED 0.01 /* m */
 
-static int set_up(void **state)
-{
-    (void)state;
-    grid_room_create();
-    return 0;
-}
-
 static rlf_world *start(void)
 {
     rlf_world_def def = rlf_world_def_default();
@@ -113,4 +106,4 @@ TEST_CASE(heavy_board_stands_on_two_light_cubes)
     assert_true(most < MOVED);
 }
 
-TEST_GROUP(set_up, grid_room_destroy)
+TEST_GROUP(grid_room_start, grid_room_destroy)

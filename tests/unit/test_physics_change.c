@@ -72,13 +72,6 @@ static bool is_outside(const block *b, rlf_vec3 p)
     return p.y < GRID_ROOM_FLOOR && (is_beside || is_before || p.y < b->top - HALF + SLACK);
 }
 
-static int set_up(void **state)
-{
-    (void)state;
-    grid_room_create();
-    return 0;
-}
-
 static const rlf_shape_type SHAPES[2] = {RLF_SHAPE_BOX, RLF_SHAPE_SPHERE};
 static const double STEPS[6] = {0.01, 0.02, 0.04, 0.06, 0.08, 0.12};
 
@@ -117,4 +110,4 @@ TEST_CASE(side_grows_over_it)
     }
 }
 
-TEST_GROUP(set_up, grid_room_destroy)
+TEST_GROUP(grid_room_start, grid_room_destroy)

@@ -122,11 +122,4 @@ TEST_CASE(tray_slides_across_the_border)
     }
 }
 
-static int set_up(void **state)
-{
-    (void)state;
-    grid_room_create();
-    return 0;
-}
-
-TEST_GROUP(set_up, grid_room_destroy)
+TEST_GROUP(grid_room_start, grid_room_destroy)

@@ -23,17 +23,10 @@ static void set_slab(double room)
  * than to its front. */
 static rlf_vec3 way_out(rlf_vec3 from)
 {
-    rlf_world_def world_def = small_world_def();
-    world_def.gravity = rlf_vec3_make(0, 0, 0);
-    rlf_world *world = world_of(&world_def);
     rlf_body_def def = rlf_body_def_default();
     def.shape.size = rlf_vec3_make(2 * HALF, 2 * HALF, 2 * HALF);
     def.position = from;
-    add_body(world, &def);
-    advance_frames(world, &fixture->grid, 30, 1.0 / 30);
-    rlf_vec3 to = rlf_world_get_snapshot(world)->bodies[0].T_world_body.p;
-    rlf_world_destroy(&world);
-    return to;
+    return alone_after(&def, &fixture->grid, 30).T_world_body.p;
 }
 
 TEST_CASE(back_with_room_behind_it_is_a_way_out)
