@@ -54,9 +54,8 @@ static void check(loss kind)
     for (int32_t k = 0; k < 8; k++) {
         const double from = 0.1 + 0.0125 * k, at = way_out(from, kind);
         if (!(at > THICK)) {
-            print_message("from %.3f m: %.3f m behind his front\n", from, at);
+            fail_msg("from %.3f m: %.3f m behind his front", from, at);
         }
-        assert_true(at > THICK);
     }
 }
 

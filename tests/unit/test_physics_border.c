@@ -53,9 +53,8 @@ TEST_CASE(body_out_of_view_lies_on_the_floor)
         assert_true(throw_body(RLF_BORDER_EXTEND, &def, 1.0, &p));
         assert_false(grid_fixture_project(NULL, p, &u, &v));
         if (!(p.y < 0.91 && p.y > highest)) {
-            print_message("shape %d push %d: at %.3f %.3f %.3f\n", k / 3, k % 3, p.x, p.y, p.z);
+            fail_msg("shape %d push %d: at %.3f %.3f %.3f", k / 3, k % 3, p.x, p.y, p.z);
         }
-        assert_true(p.y < 0.91 && p.y > highest);
         bool is_there = throw_body(RLF_BORDER_OPEN, &def, 1.0, &p);
         assert_true(!is_there || p.y > 1.2); /* fell */
     }
@@ -72,9 +71,8 @@ TEST_CASE(body_that_starts_out_of_view_meets_the_room)
         rlf_vec3 p = {0, 0, 0};
         assert_true(throw_body(RLF_BORDER_EXTEND, &def, 1.5, &p));
         if (!(p.y < 0.95 && p.z < 4.0)) {
-            print_message("shape %d: at %.3f %.3f %.3f\n", k, p.x, p.y, p.z);
+            fail_msg("shape %d: at %.3f %.3f %.3f", k, p.x, p.y, p.z);
         }
-        assert_true(p.y < 0.95 && p.z < 4.0);
     }
 }
 

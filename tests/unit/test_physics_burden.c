@@ -1,21 +1,12 @@
 /* What is light stands under what is heavy. */
 #include "grid_room.h"
-#include "created.h"
+#include "small_world.h"
 #include "test.h"
 
 #define SIDE 0.1
 #define GAP 0.0005
 #define SECONDS 4
 #define MOVED 0.01 /* m */
-
-static rlf_world *start(void)
-{
-    rlf_world_def def = rlf_world_def_default();
-    rlf_world *world = NULL;
-    def.body_capacity = 16;
-    world = world_of(&def);
-    return world;
-}
 
 static void add(rlf_world *world, rlf_vec3 size, double mass, rlf_vec3 p)
 {
@@ -53,7 +44,7 @@ static double run(rlf_world **world)
 /* Cubes one on the other, the i-th of mass[i]. */
 static double stack(int count, const double *masses)
 {
-    rlf_world *world = start();
+    rlf_world *world = small_world(rlf_vec3_make(0, 9.81, 0));
     for (int i = 0; i < count; i++) {
         double up = (0.5 + i) * SIDE + (1 + i) * GAP;
         add(world, rlf_vec3_make(SIDE, SIDE, SIDE), masses[i],
@@ -93,7 +84,7 @@ TEST_CASE(heavy_board_stands_on_two_light_cubes)
 {
     double most = 0.0;
     for (int k = 0; k < 5; k++) {
-        rlf_world *world = start();
+        rlf_world *world = small_world(rlf_vec3_make(0, 9.81, 0));
         for (int side = -1; side <= 1; side += 2) {
             add(world, rlf_vec3_make(SIDE, SIDE, SIDE), 0.1,
                 rlf_vec3_make(0.15 * side, GRID_ROOM_FLOOR - 0.5 * SIDE - GAP, 2.4));

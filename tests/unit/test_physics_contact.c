@@ -1,13 +1,11 @@
 /* A body on the grid: bounce heights, friction, rest, missing pixels. Live method. */
 #include "draws.h"
+#include "each_world.h"
 #include "grid_shared.h"
 #include "hulls.h"
-#include "small_world.h"
 #include "test.h"
 
 #include <math.h>
-
-static rlf_world *world;
 
 static void set_floor(double height)
 {
@@ -24,13 +22,6 @@ static int start(void **state)
     def.gravity = rlf_vec3_make(0, 9.81, 0);
     world = world_of(&def);
     set_floor(1);
-    return 0;
-}
-
-static int stop(void **state)
-{
-    (void)state;
-    rlf_world_destroy(&world);
     return 0;
 }
 
@@ -309,4 +300,4 @@ TEST_CASE(comes_out_of_the_wall)
 }
 
 TEST_GROUP(set_up, tear_down)
-TEST_EACH(start, stop)
+TEST_EACH(start, stop_world)
