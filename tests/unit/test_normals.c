@@ -235,45 +235,6 @@ TEST_CASE(normals_do_not_cross_a_depth_edge)
     }
 }
 
-TEST_CASE(noisy_plane_is_within_two_degrees)
-{
-    enum { W = 512, H = 64 };
-    rlf_rig rig = analytic_rig(W, H);
-    float *ray_x, *ray_y;
-    analytic_rays(&rig.depth, &ray_x, &ray_y);
-    float *depth = rlf_alloc_array(W * H, sizeof(float));
-    float *out = rlf_alloc_array(3 * W * H, sizeof(float));
-    rlf_vec3 n = rlf_normalize(rlf_vec3_make(0.3, 0.5, -0.8));
-    analytic_random r = {5};
-    for (int i = 0; i < W * H; i++) {
-        double z = plane_depth(n, -1.6, ray_x[i], ray_y[i]);
-        z += rlf_depth_noise_sigma(&rig.noise, z) * random_normal(&r);
-        depth[i] = random_uniform(&r) < 0.01 ? 0.0f : (float)z;
-    }
-    rlf_compute_normals(RLF_NORMALS_INVERSE_DEPTH, true, W, H, ray_x, ray_y, depth, &rig.noise, out,
-                        out + W * H, out + 2 * W * H);
-    double sum = 0.0;
-    int count = 0, wrong = 0;
-    for (int i = 0; i < W * H; i++) {
-        rlf_vec3 m = {out[i], out[W * H + i], out[2 * W * H + i]};
-        if (!(depth[i] > 0.0f)) {
-            assert_true(rlf_length(m) == 0.0);
-            continue;
-        }
-        assert_float_equal(rlf_length(m), 1.0, 1e-5); /* none is lost to the holes */
-        double angle = angle_deg(m, n);
-        sum += angle;
-        wrong += angle > 30.0;
-        count++;
-    }
-    assert_true(sum / count < 2.0);
-    assert_int_equal(wrong, 0);
-    rlf_free(depth);
-    rlf_free(out);
-    rlf_free(ray_x);
-    rlf_free(ray_y);
-}
-
 TEST_CASE(lone_pixels_face_the_camera)
 {
     grid *g = *state;
