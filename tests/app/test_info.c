@@ -40,8 +40,6 @@ static color_fit_result fit_with(const char *name, double cx, double cy, bool dr
 
 static void expect_offset(const color_fit_result *r, double x, double y)
 {
-    print_message("offset %.2f %.2f +- %.2f %.2f, wanted %.2f %.2f\n", r->x, r->y, r->error_x,
-                  r->error_y, x, y);
     assert_true(r->is_known);
     assert_true(fabs(r->x - x) <= 1.0);
     assert_true(fabs(r->y - y) <= 1.0);
@@ -66,7 +64,6 @@ TEST_CASE(a_known_shift_is_found_to_a_pixel)
 TEST_CASE(a_missing_transform_is_off_by_more_near_by)
 {
     const color_fit_result fit = fit_with("synthetic:room?frames=9", 0, 0, true);
-    print_message("near %.2f far %.2f\n", fit.near_x, fit.far_x);
     assert_true(fit.is_known && color_fit_is_off(&fit));
     assert_true(fit.x < -6.0); /* f b / z = 540 x 0.052 / 3 = 9 */
     assert_true(fabs(fit.y) <= 1.0);

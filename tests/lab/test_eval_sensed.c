@@ -44,11 +44,9 @@ TEST_CASE(lost_frames_of_a_walking_person_let_nothing_through)
     assert_int_equal(eval_sensed_throw(&def, &o), RLF_OK);
     assert_int_equal(o.thrown, 40);
     assert_int_equal(o.tunnelled + o.swallowed + o.not_finite, 0);
-    assert_true(o.fastest < 15.0);
+    assert_less(o.fastest, 15.0);
     def.profile = RLF_PROFILE_THESIS;
     assert_int_equal(eval_sensed_throw(&def, &o), RLF_OK);
-    print_message("7 frames lost, thesis: %d tunnelled, %d in the person\n", (int)o.tunnelled,
-                  (int)o.swallowed);
     assert_true(o.tunnelled > 10 && o.swallowed > 0);
 }
 
@@ -63,9 +61,7 @@ TEST_CASE(balls_bounce_as_they_truly_would)
     assert_int_equal(eval_sensed_throw(&def, &live), RLF_OK);
     def.profile = RLF_PROFILE_THESIS;
     assert_int_equal(eval_sensed_throw(&def, &thesis), RLF_OK);
-    print_message("within 10 deg: live %d of %d, thesis %d of %d\n", (int)live.right_nearby,
-                  (int)live.bounces, (int)thesis.right_nearby, (int)thesis.bounces);
-    assert_true(live.bounces > 60);
-    assert_true(live.right_nearby > 0.85 * (double)live.bounces);
-    assert_true(thesis.right_nearby < 0.5 * (double)thesis.bounces);
+    assert_less(60, live.bounces);
+    assert_less(0.85 * (double)live.bounces, live.right_nearby);
+    assert_less(thesis.right_nearby, 0.5 * (double)thesis.bounces);
 }

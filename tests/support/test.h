@@ -56,4 +56,10 @@ int test_run_all(void);
         test_for_group(set_up, tear_down);                                                         \
     }
 
+/* assert_true(a < b) of numbers, which are told when it is not so. */
+#define assert_less(a, b) test_less(a, b, #a, #b, __FILE__, __LINE__)
+
+void test_less(double a, double b, const char *a_text, const char *b_text, const char *file,
+               int line);
+
 #endif

@@ -1,4 +1,4 @@
-/* The list of a program's tests: see test.h. */
+/* The list of a program's tests, and what else test.h has. */
 #include "test.h"
 
 #include <stdio.h>
@@ -52,4 +52,13 @@ int test_run_all(void)
     int failed = _cmocka_run_group_tests("tests", tests, count, group[0], group[1]);
     free(tests);
     return failed;
+}
+
+void test_less(double a, double b, const char *a_text, const char *b_text, const char *file,
+               int line)
+{
+    if (!(a < b)) {
+        print_error("%s < %s: %g is not less than %g\n", a_text, b_text, a, b);
+        _fail(file, line);
+    }
 }

@@ -105,8 +105,6 @@ TEST_CASE(a_back_is_where_the_other_camera_sees_it)
     for (int k = 0; k < 3; k++) {
         const double guess = 0.1 + 0.2 * k; /* too thin, and twice too thick */
         const double alone = turns_at(guess, false), both = turns_at(guess, true);
-        print_message("guess %.1f m: turns round at %.3f by one camera, %.3f by both\n", guess,
-                      alone, both);
         assert_true(fabs(both - BACK) < 0.11); /* 3 m/s between two frames */
         assert_true(k == 0 || alone > FRONT + guess - 0.02);
     }

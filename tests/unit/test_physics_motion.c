@@ -94,9 +94,6 @@ TEST_CASE(tumbling_box_keeps_energy_and_momentum)
             sign = -sign;
         }
     }
-    print_message("tumbling box, 100 s: energy drift %.2e, angular momentum %.2e, %d flips, the "
-                  "first at %.3f s\n",
-                  worst_E, worst_L, flips, first_flip);
     assert_true(worst_E <= 1e-6);
     assert_true(worst_L <= 1e-12);
     assert_int_equal(flips, 37); /* as with steps ten times finer */

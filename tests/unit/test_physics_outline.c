@@ -50,7 +50,6 @@ TEST_CASE(a_flat_thing_is_no_deeper_than_its_outline_shows)
     const block flat = {-0.75, -0.4, -0.2, 0.2, 0.0};
     for (int k = 0; k < 2; k++) {
         double deep = met_behind(&flat, k == 0 ? RLF_SHAPE_SPHERE : RLF_SHAPE_BOX, -0.5);
-        print_message("met %.3f m behind\n", deep);
         assert_true(deep > 0.0 && deep < 0.06);
     }
 }
@@ -60,7 +59,6 @@ TEST_CASE(a_side_that_is_seen_belongs_to_the_solid)
     const block deep = {-0.75, -0.4, -0.2, 0.2, 0.12};
     for (int k = 0; k < 2; k++) {
         double met = met_behind(&deep, k == 0 ? RLF_SHAPE_SPHERE : RLF_SHAPE_BOX, -0.5);
-        print_message("met %.3f m behind\n", met);
         assert_true(met > 0.11 && met < GUESS + 0.01);
     }
 }
@@ -71,7 +69,6 @@ TEST_CASE(a_side_that_is_seen_makes_no_front_wider)
     const block bar = {-1.08, -0.99, -0.3, 0.3, 0.09};
     for (int k = 0; k < 2; k++) {
         double met = met_behind(&bar, k == 0 ? RLF_SHAPE_SPHERE : RLF_SHAPE_BOX, -1.035);
-        print_message("met %.3f m behind\n", met);
         assert_true(met > 0.07 && met < 0.11);
     }
 }
@@ -81,6 +78,5 @@ TEST_CASE(where_nothing_tells_the_guess_stays)
 {
     const block ahead = {-0.12, 0.12, -0.12, 0.12, 0.0};
     double met = met_behind(&ahead, RLF_SHAPE_SPHERE, 0.0);
-    print_message("met %.3f m behind\n", met);
     assert_true(met > GUESS - 0.01 && met < GUESS + 0.01);
 }

@@ -141,7 +141,6 @@ TEST_CASE(what_touches_is_told_to_be_near)
             asked++;
         }
     }
-    print_message("%d points: %d may touch, %d do\n", asked, told, touches);
     assert_true(touches > 3000 && told < asked * 3 / 4);
     phys_shape_finish(&body.shape);
     free(tiles.marks);

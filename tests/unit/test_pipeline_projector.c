@@ -130,7 +130,6 @@ TEST_CASE(a_body_lands_where_the_lens_throws_it)
         assert_true(find_light(&image, seen));
         assert_true(
             rlf_camera_project(&lens, rlf_transform(&T_projector_depth, places[i]), &u, &v));
-        print_message("body %d: off by %.2f, %.2f pixels\n", i, seen[0] - u, seen[1] - v);
         assert_true(fabs(seen[0] - u) < 1.0 && fabs(seen[1] - v) < 1.0);
         rlf_pipeline_destroy(&p);
     }

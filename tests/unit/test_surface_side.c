@@ -165,7 +165,6 @@ TEST_CASE(the_background_has_the_side)
         side += is_side_at[i];
         wrong += is_side_at[i] && angle_deg(n, truth) > 30.0;
     }
-    print_message("side of the background: %d of %d wrong\n", wrong, side);
     assert_true(side >= HEIGHT - 24);
     assert_true(100 * wrong <= 12 * side);
     rlf_reconstruct_destroy(&stage);
@@ -203,7 +202,6 @@ TEST_CASE(the_wall_shows_in_a_slit)
         slit += in_slit;
         wrong += in_slit && !(s->depth[i] > wall - 0.05 && s->depth[i] < wall + 0.05);
     }
-    print_message("slit %d of %d wrong\n", wrong, slit);
     assert_true(slit > 0 && 20 * wrong <= slit);
     rlf_reconstruct_destroy(&stage);
 }
