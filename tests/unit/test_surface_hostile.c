@@ -77,33 +77,3 @@ TEST_CASE(what_is_out_of_range_is_missing)
     }
     run_free(&r);
 }
-
-/* A picture's corner has three neighbours only, too few to tell it from a mixed pixel when one of
- * them is missing. */
-static bool is_corner(const rlf_surface *s, int32_t i)
-{
-    int32_t x = i % s->width;
-    int32_t y = i / s->width;
-    return (x == 0 || x == s->width - 1) && (y == 0 || y == s->height - 1);
-}
-
-/* One pixel in a hundred is missing: every pixel that was measured keeps its normal, none is wrong,
- * and nothing moves or stands in front. */
-TEST_CASE(dropouts_cost_their_neighbours_nothing)
-{
-    run r = run_make(193, 121);
-    for (int32_t t = 0; t < 24; t++) {
-        const rlf_surface *s = run_frame(&r, HOSTILE_DROPOUT_1, t);
-        for (int32_t i = 0; i < s->width * s->height && t >= 12; i++) {
-            bool measured = r.depth[i] != 0;
-            assert_true(measured || s->reason[i] == RLF_REASON_FILLED || s->depth[i] == 0.0f);
-            rlf_vec3 n = rlf_vec3_make(s->normal_x[i], s->normal_y[i], s->normal_z[i]);
-            assert_true(s->depth[i] == 0.0f || angle_deg(n, rlf_vec3_make(0, 0, -1)) < 30.0);
-            assert_true(!measured || s->reason[i] == RLF_REASON_OK || is_corner(s, i));
-            assert_true(!s->foreground[i]);
-            assert_true(s->velocity_x[i] == 0.0f && s->velocity_y[i] == 0.0f &&
-                        s->velocity_z[i] == 0.0f);
-        }
-    }
-    run_free(&r);
-}
