@@ -1,11 +1,9 @@
 /* The thickness of what stands, against a room whose backs are known: a floor, a wall, and on the
  * floor a ball and a box that shows two sides and its top; with the sensor's noise. */
-#include "heavy.h"
 #include "created.h"
-#include "seen_view.h"
+#include "heavy.h"
+#include "painted.h"
 #include "test.h"
-
-#include <string.h>
 
 enum { WIDTH = 320, HEIGHT = 240, COUNT = WIDTH * HEIGHT, FRAMES = 80 };
 enum { WALL, FLOOR, BALL, BOX, PLATE, KINDS };
@@ -24,15 +22,15 @@ static const standing_box high_box = {{0.4, 0.4, 2.3}, {0.12, 0.5, 0.15}, -0.05}
 /* Goes on beyond the left border. */
 static const standing_box cut_box = {{-1.7, 0.4, 2.3}, {0.6, 0.4, 0.15}, 0.0};
 static const standing_box *box = &low_box;
-static double zoom = 1.0;
 
-static float depth[COUNT], exit_depth[COUNT];
+static float truth[COUNT], exit_depth[COUNT];
+static analytic_random noise;
 static int kind[COUNT];
 
 static void hit(int i, int what, double near, double far)
 {
-    if (near > 0.0 && near < (double)depth[i]) {
-        depth[i] = (float)near;
+    if (near > 0.0 && near < (double)truth[i]) {
+        truth[i] = (float)near;
         exit_depth[i] = (float)far;
         kind[i] = what;
     }
@@ -59,12 +57,12 @@ static void see_box(int i, rlf_vec3 ray)
 }
 
 /* The room, with the box and the ball or without. */
-static void see(const rlf_rig *rig, bool has_things)
+static void draw(bool has_things)
 {
     for (int i = 0; i < COUNT; i++) {
-        rlf_vec3 ray = {(i % WIDTH - rig->depth.cx) / rig->depth.fx,
-                        (i / WIDTH - rig->depth.cy) / rig->depth.fy, 1.0};
-        depth[i] = (float)wall_z;
+        rlf_vec3 ray = {(i % WIDTH - rig.depth.cx) / rig.depth.fx,
+                        (i / WIDTH - rig.depth.cy) / rig.depth.fy, 1.0};
+        truth[i] = (float)wall_z;
         exit_depth[i] = 0.0f;
         kind[i] = WALL;
         if (ray.y > 0.0) {
@@ -80,50 +78,36 @@ static void see(const rlf_rig *rig, bool has_things)
     }
 }
 
-typedef struct show {
-    rlf_rig rig;
-    rlf_reconstruct *stage;
-    analytic_random random;
-    int frame;
-} show;
-
-static void open_show(show *s, rlf_pool *pool)
+/* Of a lens that shows `zoom` times as much of the middle. */
+static void begin(double zoom, rlf_pool *pool)
 {
-    s->rig = analytic_rig(WIDTH, HEIGHT);
-    s->rig.depth.fx *= zoom;
-    s->rig.depth.fy *= zoom;
-    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &s->rig);
+    rlf_reconstruct_def def = see_size(WIDTH, HEIGHT);
+    rig.depth.fx *= zoom;
+    rig.depth.fy *= zoom;
+    def.rig = rig;
     def.pool = pool;
-    s->random = (analytic_random){23};
-    s->frame = 0;
-    s->stage = stage_of(&def);
+    noise = (analytic_random){23};
+    start_seeing(&def);
 }
 
-static const rlf_surface *next(show *s)
-{
-    static float noisy[COUNT];
-    for (int i = 0; i < COUNT; i++) {
-        double z = depth[i];
-        noisy[i] = (float)(z + rlf_depth_noise_sigma(&s->rig.noise, z) * random_normal(&s->random));
-    }
-    return seen_depth_process(&s->rig, noisy, s->stage, s->frame++);
-}
-
-static const rlf_surface *watch(show *s, int frames)
+static const rlf_surface *watch(int frames)
 {
     const rlf_surface *surface = NULL;
     for (int k = 0; k < frames; k++) {
-        surface = next(s);
+        for (int i = 0; i < COUNT; i++) {
+            double z = truth[i];
+            depth[i] = (float)(z + rlf_depth_noise_sigma(&rig.noise, z) * random_normal(&noise));
+        }
+        surface = see();
     }
     return surface;
 }
 
 TEST_CASE(backs_of_what_stands_are_found)
 {
-    show s;
-    open_show(&s, NULL);
-    see(&s.rig, true);
-    const rlf_surface *surface = watch(&s, FRAMES);
+    begin(1.0, NULL);
+    draw(true);
+    const rlf_surface *surface = watch(FRAMES);
     double known[KINDS] = {0}, all[KINDS] = {0}, off[KINDS] = {0};
     for (int i = 0; i < COUNT; i++) {
         double thickness = surface->background_thickness[i];
@@ -137,17 +121,15 @@ TEST_CASE(backs_of_what_stands_are_found)
     /* walls and floors end nowhere; one face alone says nothing about its back */
     assert_less(known[WALL] + known[FLOOR], 0.005 * (all[WALL] + all[FLOOR]));
     assert_less(known[PLATE], 0.1 * all[PLATE]);
-    rlf_reconstruct_destroy(&s.stage);
 }
 
 /* Metres that the box's exit is off on average; nearly all of it must be known. */
 static double watch_box(const standing_box *what)
 {
-    show s;
     box = what;
-    open_show(&s, NULL);
-    see(&s.rig, true);
-    const rlf_surface *surface = watch(&s, FRAMES);
+    begin(1.0, NULL);
+    draw(true);
+    const rlf_surface *surface = watch(FRAMES);
     double known = 0.0, all = 0.0, off = 0.0;
     for (int i = 0; i < COUNT; i++) {
         double thickness = surface->background_thickness[i];
@@ -158,7 +140,6 @@ static double watch_box(const standing_box *what)
         off += is_known ? (error < 0.0 ? -error : error) : 0.0;
     }
     assert_less(0.95 * all, known);
-    rlf_reconstruct_destroy(&s.stage);
     box = &low_box;
     return off / known;
 }
@@ -177,18 +158,16 @@ TEST_CASE(a_box_that_the_border_cuts_goes_on)
 
 TEST_CASE(what_has_left_has_no_back)
 {
-    show s;
-    open_show(&s, NULL);
-    see(&s.rig, true);
-    (void)watch(&s, FRAMES);
-    see(&s.rig, false);
-    const rlf_surface *surface = watch(&s, 20);
+    begin(1.0, NULL);
+    draw(true);
+    (void)watch(FRAMES);
+    draw(false);
+    const rlf_surface *surface = watch(20);
     int known = 0;
     for (int i = 0; i < COUNT; i++) {
         known += kind[i] != PLATE && surface->background_thickness[i] > 0.0f;
     }
     assert_true(known < COUNT / 200);
-    rlf_reconstruct_destroy(&s.stage);
 }
 
 /* Pixels of the ball that have a back. */
@@ -209,49 +188,43 @@ TEST_CASE(a_wall_is_not_thick_where_a_ball_was)
     }
     const double radius = 0.08;
     const rlf_vec3 middle = {0.2, -0.1, wall_z - radius - 0.02};
-    show s;
-    zoom = 2.0;
-    open_show(&s, NULL);
-    zoom = 1.0;
-    see(&s.rig, false);
+    begin(2.0, NULL);
+    draw(false);
     for (int i = 0; i < COUNT; i++) {
-        double z = sphere_depth(middle, radius, (i % WIDTH - s.rig.depth.cx) / s.rig.depth.fx,
-                                (i / WIDTH - s.rig.depth.cy) / s.rig.depth.fy);
+        double z = sphere_depth(middle, radius, (i % WIDTH - rig.depth.cx) / rig.depth.fx,
+                                (i / WIDTH - rig.depth.cy) / rig.depth.fy);
         kind[i] = z > 0.0 ? BALL : WALL;
-        depth[i] = z > 0.0 ? (float)z : depth[i];
+        truth[i] = z > 0.0 ? (float)z : truth[i];
     }
-    int there = count_known(watch(&s, 120));
+    int there = count_known(watch(120));
     for (int i = 0; i < COUNT; i++) {
-        depth[i] = kind[i] == BALL ? (float)wall_z : depth[i];
+        truth[i] = kind[i] == BALL ? (float)wall_z : truth[i];
     }
-    int left = count_known(watch(&s, 16));
+    int left = count_known(watch(16));
     assert_true(there > 300 && left * 50 < there);
-    rlf_reconstruct_destroy(&s.stage);
 }
 
 /* A surface keeps its plane while it is valid, also while a new one is published. */
 TEST_CASE(planes_of_valid_surfaces_stay)
 {
     static float kept[COUNT];
-    show s;
     int changes = 0;
     int64_t version = 0;
-    open_show(&s, NULL);
-    see(&s.rig, true);
+    begin(1.0, NULL);
+    draw(true);
     for (int k = 0; k < 60; k++) {
-        const rlf_surface *surface = next(&s);
+        const rlf_surface *surface = watch(1);
         const float *plane = surface->background_thickness;
         changes += surface->background_version != version;
         version = surface->background_version;
         memcpy(kept, plane, sizeof kept);
         for (int later = 1; later < RLF_RECONSTRUCT_SURFACES; later++) {
-            (void)next(&s);
+            (void)watch(1);
             assert_memory_equal(kept, plane, sizeof kept);
         }
     }
     assert_true(changes >= 3); /* learnt, found, and found again when the means were better */
     assert_true(changes < 10);
-    rlf_reconstruct_destroy(&s.stage);
 }
 
 TEST_CASE(workers_change_nothing)
@@ -262,16 +235,17 @@ TEST_CASE(workers_change_nothing)
     }
     for (int32_t workers = 1; workers <= 3; workers += 2) {
         rlf_pool *pool = pool_of(workers);
-        show s;
-        open_show(&s, pool);
-        see(&s.rig, true);
-        const rlf_surface *surface = watch(&s, FRAMES);
+        begin(1.0, pool);
+        draw(true);
+        const rlf_surface *surface = watch(FRAMES);
         if (workers == 1) {
             memcpy(one, surface->background_thickness, sizeof one);
         } else {
             assert_memory_equal(one, surface->background_thickness, sizeof one);
         }
-        rlf_reconstruct_destroy(&s.stage);
+        stop_seeing(NULL);
         rlf_pool_destroy(&pool);
     }
 }
+
+TEST_EACH(NULL, stop_seeing)
