@@ -31,13 +31,28 @@ static inline double plane_depth(rlf_vec3 n, double d, double x, double y)
     return d / (n.x * x + n.y * y + n.z);
 }
 
-/* Depth of the near side of a sphere; 0 where the ray misses. */
+/* Where a ray from `from` along `way` enters a sphere and leaves it, in lengths of `way`; false
+ * when it misses. */
+static inline bool sphere_ray(rlf_vec3 centre, double radius, rlf_vec3 from, rlf_vec3 way,
+                              double *in, double *leave)
+{
+    rlf_vec3 to = rlf_sub(centre, from);
+    double a = rlf_dot(way, way), b = rlf_dot(way, to);
+    double root = b * b - a * (rlf_dot(to, to) - radius * radius);
+    if (!(root > 0.0)) {
+        return false;
+    }
+    *in = (b - sqrt(root)) / a;
+    *leave = (b + sqrt(root)) / a;
+    return true;
+}
+
+/* Depth of the near side of a sphere along the ray (x, y, 1); 0 where it misses. */
 static inline double sphere_depth(rlf_vec3 centre, double radius, double x, double y)
 {
-    rlf_vec3 m = {x, y, 1.0};
-    double a = rlf_dot(m, m), b = rlf_dot(m, centre);
-    double root = b * b - a * (rlf_dot(centre, centre) - radius * radius);
-    return root < 0.0 ? 0.0 : (b - sqrt(root)) / a;
+    double in, leave;
+    const rlf_vec3 eye = {0.0, 0.0, 0.0}, way = {x, y, 1.0};
+    return sphere_ray(centre, radius, eye, way, &in, &leave) ? in : 0.0;
 }
 
 /* Where a ray from `from` along `way` enters a box and leaves it, in lengths of `way`; false when

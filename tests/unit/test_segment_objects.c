@@ -31,17 +31,12 @@ typedef struct scene {
 /* Nearest way t along from + t way into a box; 0 = past it. */
 static double hit_box(const box *b, rlf_vec3 from, rlf_vec3 way)
 {
-    double c = cos(b->yaw), s = sin(b->yaw), near = 0.0, far = 1e9;
-    rlf_vec3 d = rlf_sub(from, b->centre);
-    const double p[3] = {c * d.x - s * d.z, d.y, s * d.x + c * d.z};
-    const double w[3] = {c * way.x - s * way.z, way.y, s * way.x + c * way.z};
-    const double half[3] = {b->half.x, b->half.y, b->half.z};
-    for (int k = 0; k < 3; k++) {
-        double t0 = (-half[k] - p[k]) / w[k], t1 = (half[k] - p[k]) / w[k];
-        near = rlf_max(near, rlf_min(t0, t1));
-        far = rlf_min(far, rlf_max(t0, t1));
-    }
-    return near < far ? near : 0.0;
+    double c = cos(b->yaw), s = sin(b->yaw), near, far;
+    const rlf_aabb upright = {rlf_neg(b->half), b->half};
+    const rlf_vec3 d = rlf_sub(from, b->centre);
+    const rlf_vec3 p = {c * d.x - s * d.z, d.y, s * d.x + c * d.z};
+    const rlf_vec3 w = {c * way.x - s * way.z, way.y, s * way.x + c * way.z};
+    return box_ray(&upright, p, w, &near, &far) ? near : 0.0;
 }
 
 static double hit_can(rlf_vec3 from, rlf_vec3 way)
@@ -57,21 +52,21 @@ static double hit_can(rlf_vec3 from, rlf_vec3 way)
     return side > 0.0 && from.y + side * way.y < can.y ? side : 0.0;
 }
 
-/* The near or the far side of a sphere; 0 = past it. */
-static double hit_sphere(rlf_vec3 centre, double radius, rlf_vec3 from, rlf_vec3 way, bool is_far)
+static double hit_ball(rlf_vec3 from, rlf_vec3 way)
 {
-    rlf_vec3 d = rlf_sub(from, centre);
-    double a = rlf_dot(way, way), b = rlf_dot(d, way);
-    double root = b * b - a * (rlf_dot(d, d) - radius * radius);
-    return root > 0.0 ? (-b + (is_far ? sqrt(root) : -sqrt(root))) / a : 0.0;
+    double near, far;
+    return sphere_ray(ball, ball_radius, from, way, &near, &far) ? near : 0.0;
 }
 
 static double hit_bowl(rlf_vec3 from, rlf_vec3 way)
 {
-    for (int side = 0; side < 2; side++) {
-        double t = hit_sphere(bowl, bowl_radius, from, way, side == 1);
-        if (t > 0.0 && from.y + t * way.y < bowl.y) {
-            return t;
+    double sides[2];
+    if (!sphere_ray(bowl, bowl_radius, from, way, &sides[0], &sides[1])) {
+        return 0.0;
+    }
+    for (int k = 0; k < 2; k++) {
+        if (sides[k] > 0.0 && from.y + sides[k] * way.y < bowl.y) {
+            return sides[k];
         }
     }
     return 0.0;
@@ -89,7 +84,7 @@ static void draw(scene *s)
                                   hit_box(&boxes[0], eye, way),
                                   hit_box(&boxes[1], eye, way),
                                   hit_can(eye, way),
-                                  hit_sphere(ball, ball_radius, eye, way, false),
+                                  hit_ball(eye, way),
                                   hit_bowl(eye, way)};
         s->view.truth[i] = 0.0f;
         s->truth[i] = 0;

@@ -43,11 +43,10 @@ static void look(const rlf_pose *T_room_camera, int32_t number)
             double t = (d[k] - rlf_dot(n[k], origin)) / rlf_dot(n[k], way);
             nearest = t > 0.0 && t < nearest ? t : nearest;
         }
-        rlf_vec3 to = rlf_sub(ball, origin);
-        double a = rlf_dot(way, way), b = rlf_dot(way, to);
-        double root = b * b - a * (rlf_dot(to, to) - 0.25 * 0.25);
-        double t = root > 0.0 ? (b - sqrt(root)) / a : 0.0;
-        nearest = t > 0.0 && t < nearest ? t : nearest;
+        double t, leave;
+        if (sphere_ray(ball, 0.25, origin, way, &t, &leave) && t > 0.0) {
+            nearest = rlf_min(nearest, t);
+        }
         sense(i, nearest, &random);
     }
 }

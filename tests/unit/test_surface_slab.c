@@ -35,17 +35,11 @@ typedef struct plate {
 static bool cut(const plate *p, double u, double v, double out[2])
 {
     double c = rlf_cos(p->turn), s = rlf_sin(p->turn);
-    const double from[3] = {-p->x * s - middle_z * c, 0.0, -p->x * c + middle_z * s};
-    const double way[3] = {u * s + c, v, u * c - s};
-    out[0] = 0.0;
-    out[1] = 1e9;
-    for (int k = 0; k < 3; k++) {
-        double slope = fabs(way[k]) < 1e-9 ? 1e-9 : way[k];
-        double a = (-p->half[k] - from[k]) / slope, b = (p->half[k] - from[k]) / slope;
-        out[0] = fmax(out[0], fmin(a, b));
-        out[1] = fmin(out[1], fmax(a, b));
-    }
-    return out[0] < out[1];
+    const rlf_vec3 from = {-p->x * s - middle_z * c, 0.0, -p->x * c + middle_z * s};
+    const rlf_vec3 way = {u * s + c, v, u * c - s};
+    const rlf_vec3 half = {p->half[0], p->half[1], p->half[2]};
+    const rlf_aabb box = {rlf_neg(half), half};
+    return box_ray(&box, from, way, &out[0], &out[1]) && out[0] > 0.0;
 }
 
 /* A wall, the stick under the plate, and the plate, if any. */

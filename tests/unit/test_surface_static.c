@@ -38,10 +38,9 @@ static void hit(int i, int what, double near, double far)
 
 static void see_ball(int i, rlf_vec3 ray)
 {
-    double a = rlf_dot(ray, ray), b = rlf_dot(ray, ball_centre);
-    double c = rlf_dot(ball_centre, ball_centre) - ball_radius * ball_radius;
-    if (b * b > a * c) {
-        hit(i, BALL, (b - sqrt(b * b - a * c)) / a, (b + sqrt(b * b - a * c)) / a);
+    double near, far;
+    if (sphere_ray(ball_centre, ball_radius, rlf_vec3_make(0, 0, 0), ray, &near, &far)) {
+        hit(i, BALL, near, far);
     }
 }
 
