@@ -18,13 +18,12 @@
 #define FOLDER "calibrate_pictures"
 #define PIXELS (320 * 240)
 
-static bool has_opencv(void)
+static void need_opencv(void)
 {
     if (opencv_get() == NULL) {
         print_message("SKIPPED: %s\n", rlf_error_text());
-        return false;
+        skip();
     }
-    return true;
 }
 
 static void write_gray(const char *folder, int number, const uint8_t *data, int32_t width,
@@ -108,9 +107,7 @@ static calibrate_model pairs_model; /* what test_pairs found */
 /* Both lenses and the motion come out as they are. */
 TEST_CASE(test_pairs)
 {
-    if (!has_opencv()) {
-        skip();
-    }
+    need_opencv();
     const rlf_rig rig = board_rig();
     calibration c;
     write_pairs();
@@ -147,9 +144,7 @@ static void mirror(const uint8_t *in, uint8_t *out)
 /* A double, a mirrored picture, one cut off: each is left out with its reason, the rest is used. */
 TEST_CASE(test_bad_views_are_named)
 {
-    if (!has_opencv()) {
-        skip();
-    }
+    need_opencv();
     calibration c;
     static uint8_t picture[PIXELS];
     write_pairs();
@@ -192,9 +187,7 @@ static void blur(const uint8_t *in, uint8_t *out, int radius)
 
 TEST_CASE(test_refusals)
 {
-    if (!has_opencv()) {
-        skip();
-    }
+    need_opencv();
     static uint8_t picture[PIXELS];
     calibrate_options o = folder_options(false);
     write_pairs();
@@ -224,9 +217,7 @@ TEST_CASE(test_refusals)
 
 TEST_CASE(test_blurred)
 {
-    if (!has_opencv()) {
-        skip();
-    }
+    need_opencv();
     static uint8_t picture[PIXELS];
     calibrate_sight sight = {.count = 0};
     blur(drawn[0][4], picture, 6);
@@ -385,9 +376,7 @@ static void record_clip(double offset_m)
 /* From a recording: still poses are picked, colour by corners, depth by the board's outline. */
 TEST_CASE(test_source)
 {
-    if (!has_opencv()) {
-        skip();
-    }
+    need_opencv();
     const rlf_rig truth = board_rig();
     record_clip(0.0);
     const calibrate_options o = {
@@ -407,9 +396,7 @@ TEST_CASE(test_source)
  * test_pairs to the last bit. */
 TEST_CASE(test_depth_offset)
 {
-    if (!has_opencv()) {
-        skip();
-    }
+    need_opencv();
     calibration c;
     static uint16_t depth[PIXELS];
     write_pairs();

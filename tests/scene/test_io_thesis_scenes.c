@@ -85,9 +85,7 @@ TEST_CASE(hand_and_arm_turn_a_thrown_cube_back)
 /* Figure 5.4: from behind, at a back that the camera never saw. */
 TEST_CASE(cube_from_behind_bounces_off_the_back)
 {
-    if (!heavy_is_whole()) {
-        skip(); /* the same code as for the hand */
-    }
+    heavy_needs_whole(); /* the same code as for the hand */
     outcome thesis = play("synthetic:room?color=0", "behind", RLF_PROFILE_THESIS, 160);
     assert_true(thesis.low.z < 2.5); /* through the body, on towards the camera */
     outcome live = play("synthetic:room?color=0", "behind", RLF_PROFILE_LIVE, 160);
@@ -97,9 +95,7 @@ TEST_CASE(cube_from_behind_bounces_off_the_back)
 /* Figure 5.7: a book that faces the camera, and the same book edge-on. */
 TEST_CASE(book_is_solid_whichever_way_it_is_held)
 {
-    if (!heavy_is_whole()) {
-        skip(); /* the same code as for the hand */
-    }
+    heavy_needs_whole(); /* the same code as for the hand */
     outcome facing = play("synthetic:book?color=0", "book_facing", RLF_PROFILE_LIVE, 270);
     assert_true(facing.high.z < 2.47 && facing.foreground_contacts > 0);
     outcome thesis = play("synthetic:book?color=0", "book_edge", RLF_PROFILE_THESIS, 165);
@@ -112,9 +108,7 @@ TEST_CASE(book_is_solid_whichever_way_it_is_held)
  */
 TEST_CASE(furniture_that_left_is_gone)
 {
-    if (!heavy_is_whole()) {
-        skip(); /* the same code as for the hand */
-    }
+    heavy_needs_whole(); /* the same code as for the hand */
     outcome thesis = play("synthetic:chair?color=0", "moved_chair", RLF_PROFILE_THESIS, 175);
     assert_true(thesis.high.z < 3.65); /* off a chair that is not there */
     outcome live = play("synthetic:chair?color=0", "moved_chair", RLF_PROFILE_LIVE, 175);

@@ -72,9 +72,7 @@ TEST_CASE(tiles_make_the_same_normals_as_the_whole)
 /* The first image is the mean of five frames; the last one of many. */
 TEST_CASE(means_get_better_without_a_change)
 {
-    if (!heavy_is_whole()) {
-        skip(); /* the other tests run the same code */
-    }
+    heavy_needs_whole(); /* the other tests run the same code */
     begin(6);
     double sum[2] = {0.0, 0.0};
     for (int t = 0; t < 90; t++) {
@@ -157,9 +155,7 @@ static double sum_of(const rlf_surface *s)
 /* Tiles are made in a image that no valid surface shows. */
 TEST_CASE(valid_surfaces_keep_their_background)
 {
-    if (!heavy_is_whole()) {
-        skip(); /* the other tests run the same code */
-    }
+    heavy_needs_whole(); /* the other tests run the same code */
     begin(8);
     const rlf_surface *s[RLF_RECONSTRUCT_SURFACES] = {NULL};
     double sum[RLF_RECONSTRUCT_SURFACES] = {0.0};

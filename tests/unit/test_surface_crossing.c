@@ -59,9 +59,7 @@ static void check_seed(uint64_t seed)
 
 TEST_CASE(each_keeps_his_label)
 {
-    if (!heavy_is_whole()) {
-        skip(); /* unit.surface_person runs the same code */
-    }
+    heavy_needs_whole(); /* unit.surface_person runs the same code */
     for (uint64_t seed = 1; seed <= 2; seed++) {
         check_seed(seed);
     }

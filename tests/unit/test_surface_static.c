@@ -182,9 +182,7 @@ static int count_known(const rlf_surface *surface)
 /* A ball close to the wall: that is hardly farther than its back, and is another thing. */
 TEST_CASE(a_wall_is_not_thick_where_a_ball_was)
 {
-    if (!heavy_is_whole()) {
-        skip(); /* the same code as what_has_left_has_no_back */
-    }
+    heavy_needs_whole(); /* the same code as what_has_left_has_no_back */
     const double radius = 0.08;
     const rlf_vec3 middle = {0.2, -0.1, wall_z - radius - 0.02};
     begin(2.0, NULL);
@@ -229,9 +227,7 @@ TEST_CASE(planes_of_valid_surfaces_stay)
 TEST_CASE(workers_change_nothing)
 {
     static float one[COUNT];
-    if (!heavy_is_whole()) {
-        skip(); /* unit.surface_stage has them with sanitizers */
-    }
+    heavy_needs_whole(); /* unit.surface_stage has them with sanitizers */
     for (int32_t workers = 1; workers <= 3; workers += 2) {
         rlf_pool *pool = pool_of(workers);
         begin(1.0, pool);
