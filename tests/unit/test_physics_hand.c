@@ -2,7 +2,7 @@
 #include "each_world.h"
 #include "test.h"
 
-#include "grid_fixture.h"
+#include "grid_shared.h"
 
 #include <math.h>
 
@@ -10,7 +10,7 @@
 #define CROWD 100
 
 /* The palm, 40 x 40 cm, on a circle of 0.3 m at `speed`, seen at time t. */
-static rlf_vec3 see_palm(grid_fixture *fixture, double t, double speed)
+static rlf_vec3 see_palm(double t, double speed)
 {
     const double RADIUS = 0.3;
     double angle = speed / RADIUS * t;
@@ -26,10 +26,9 @@ static rlf_vec3 see_palm(grid_fixture *fixture, double t, double speed)
  * it. */
 TEST_CASE(hand_carries_a_stack)
 {
-    grid_fixture *fixture = grid_fixture_create();
     grid_plane room[2] = {grid_floor(1.2), grid_wall(5)};
     grid_fixture_set_room(fixture, room, 2);
-    rlf_vec3 start = see_palm(fixture, 0, 0.5);
+    rlf_vec3 start = see_palm(0, 0.5);
     for (int k = 0; k < 3; k++) {
         rlf_body_def def = rlf_body_def_default();
         def.restitution = 0;
@@ -39,7 +38,7 @@ TEST_CASE(hand_carries_a_stack)
     }
     double worst = 0;
     for (int frame = 1; frame <= 120; frame++) {
-        rlf_vec3 palm = see_palm(fixture, frame * FRAME, 0.5);
+        rlf_vec3 palm = see_palm(frame * FRAME, 0.5);
         rlf_world_advance(world, &fixture->grid, FRAME);
         for (int k = 0; k < 3; k++) {
             rlf_vec3 p = rlf_world_get_snapshot(world)->bodies[k].T_world_body.p;
@@ -48,7 +47,6 @@ TEST_CASE(hand_carries_a_stack)
         }
     }
     assert_less(worst, 0.03);
-    grid_fixture_destroy(&fixture);
 }
 
 /* A board comes to a sleeping cube at 2.5 m/s, 8 cm a frame, whatever part of its way is left when
@@ -56,7 +54,6 @@ TEST_CASE(hand_carries_a_stack)
 TEST_CASE(board_wakes_a_sleeper_in_time)
 {
     const double SPEED = 2.5, THICKNESS = 0.04;
-    grid_fixture *fixture = grid_fixture_create();
     grid_plane room[2] = {grid_floor(1.2), grid_wall(5)};
     grid_fixture_set_room(fixture, room, 2);
     for (int phase = 0; phase < 8; phase++) {
@@ -80,7 +77,6 @@ TEST_CASE(board_wakes_a_sleeper_in_time)
         assert_true(ahead > 0.045);
         rlf_world_reset(world);
     }
-    grid_fixture_destroy(&fixture);
 }
 
 /* Floor, back wall and two side walls, all within the view. */
@@ -97,7 +93,7 @@ static bool is_lost(rlf_vec3 p)
 }
 
 /* Somebody 50 cm wide and 25 cm deep walks from side to side at 1 m/s. Returns x of the middle. */
-static double see_walker(grid_fixture *fixture, double t)
+static double see_walker(double t)
 {
     double phase = t / 2.4 - floor(t / 2.4);
     double direction = phase < 0.5 ? 1 : -1;
@@ -112,7 +108,6 @@ static double see_walker(grid_fixture *fixture, double t)
  * stays inside the walker. */
 TEST_CASE(crowd_survives_a_walker)
 {
-    grid_fixture *fixture = grid_fixture_create();
     grid_fixture_set_room(fixture, ROOM, 4);
     for (int i = 0; i < CROWD; i++) {
         rlf_body_def def = rlf_body_def_default();
@@ -125,7 +120,7 @@ TEST_CASE(crowd_survives_a_walker)
     bool was_lost[CROWD] = {false};
     int lost = 0, inside = 0, longest = 0, touched = 0, stay[CROWD] = {0};
     for (int frame = 0; frame < 240; frame++) {
-        double x = see_walker(fixture, frame * FRAME);
+        double x = see_walker(frame * FRAME);
         rlf_world_advance(world, &fixture->grid, FRAME);
         const rlf_snapshot *s = rlf_world_get_snapshot(world);
         for (int32_t i = 0; i < s->contact_count; i++) {
@@ -149,7 +144,7 @@ TEST_CASE(crowd_survives_a_walker)
     assert_int_equal(lost, 0);
     assert_true(touched > 100); /* he did walk through them */
     assert_true(longest <= 3);
-    grid_fixture_destroy(&fixture);
 }
 
+TEST_GROUP(set_up, tear_down)
 TEST_EACH(start_world, stop_world)

@@ -3,7 +3,7 @@
 #include "small_world.h"
 #include "test.h"
 
-#include "grid_fixture.h"
+#include "grid_shared.h"
 #include "heavy.h"
 
 #include <math.h>
@@ -58,7 +58,6 @@ static rlf_body_def random_throw(uint64_t *r)
 
 TEST_CASE(nothing_tunnels)
 {
-    grid_fixture *fixture = grid_fixture_create();
     grid_fixture_set_room(fixture, ROOM, 5);
     uint64_t r = 7;
     int tunnelled = 0, bounced = 0, left = 0;
@@ -103,13 +102,11 @@ TEST_CASE(nothing_tunnels)
     assert_int_equal(tunnelled, 0);
     assert_true(bounced > THROWS * 9 / 10);
     assert_true(left < THROWS / 2);
-    grid_fixture_destroy(&fixture);
 }
 
 /* Throws at the unseen back of a slab, or at the side of a book seen edge-on. */
 static void throws_at(bool is_edge)
 {
-    grid_fixture *fixture = grid_fixture_create();
     grid_fixture_set_room(fixture, ROOM, 5);
     grid_fixture_set_slab(fixture, grid_wall(2), rlf_vec3_make(0, 0, 2),
                           is_edge ? rlf_vec3_make(0.012, 0.2, 0) : rlf_vec3_make(0.25, 0.5, 0), 0.2,
@@ -154,7 +151,6 @@ static void throws_at(bool is_edge)
                   passed);
     assert_int_equal(passed, 0);
     assert_true(bounced >= count - 1);
-    grid_fixture_destroy(&fixture);
 }
 
 TEST_CASE(backs_and_edges_are_solid)
@@ -180,7 +176,6 @@ static void count_losses(const rlf_snapshot *s, bool *was_in_view, int *left, in
 TEST_CASE(a_crowd_stays_in_the_room)
 {
     enum { CUBES = 100, FRAMES = 120 };
-    grid_fixture *fixture = grid_fixture_create();
     grid_fixture_set_room(fixture, ROOM, 5);
     rlf_world_def world_def = rlf_world_def_default();
     rlf_world *world = world_of(&world_def);
@@ -202,5 +197,6 @@ TEST_CASE(a_crowd_stays_in_the_room)
     print_message("%d cubes: %d left the view, %d lost\n", CUBES, left, lost);
     assert_int_equal(lost, 0);
     rlf_world_destroy(&world);
-    grid_fixture_destroy(&fixture);
 }
+
+TEST_EACH(set_up, tear_down)

@@ -58,10 +58,18 @@ static void render(const plane *planes, int count, const rlf_pose *T, float *dep
     }
 }
 
-/* The room is predicted from the identity, and seen from `T`. */
+static int end(void **state)
+{
+    (void)state;
+    rlf_tracker_destroy(&f.tracker);
+    return 0;
+}
+
+/* The room is predicted from the identity, and seen from `T`; instead of what was there. */
 static void begin(const plane *planes, int count, const rlf_pose *T)
 {
     const rlf_pose identity = rlf_pose_identity();
+    end(NULL);
     memset(&f, 0, sizeof(f));
     f.rig.depth = (rlf_camera){
         .width = WIDTH, .height = HEIGHT, .fx = 183.0, .fy = 183.0, .cx = 127.5, .cy = 105.5};
@@ -128,7 +136,6 @@ TEST_CASE(test_a_corner_gives_the_pose)
     assert_true(found.overlap > 0.9);
     const rlf_track_result again = align();
     assert_memory_equal(&again.T_world_camera, &found.T_world_camera, sizeof(rlf_pose));
-    rlf_tracker_destroy(&f.tracker);
 }
 
 /* A blank wall says nothing of the ways along it, and the pose stays where it was in them. */
@@ -141,7 +148,6 @@ TEST_CASE(test_a_plane_alone_is_weak)
     assert_true(fabs(found.weak_way.z) < 0.05);
     assert_float_equal(found.T_world_camera.p.z, 0.02, 2e-4);
     assert_true(fabs(found.T_world_camera.p.x) < 1e-3);
-    rlf_tracker_destroy(&f.tracker);
 }
 
 /* A seventh of the view goes to the side and nearer, as a person does. With the mask it does not
@@ -160,7 +166,6 @@ TEST_CASE(test_a_mover_does_not_pull)
         const rlf_track_result found = align();
         assert_int_equal(found.health, RLF_TRACK_GOOD);
         assert_true(rlf_length(rlf_sub(found.T_world_camera.p, T.p)) < 1e-3);
-        rlf_tracker_destroy(&f.tracker);
     }
 }
 
@@ -175,14 +180,12 @@ TEST_CASE(test_brightness_tells_what_depth_does_not)
     const rlf_track_result found = align();
     assert_true(rlf_length(rlf_sub(found.T_world_camera.p, alone.T_world_camera.p)) < 1e-4);
     assert_true(turn_between(found.T_world_camera.q, alone.T_world_camera.q) < 0.01);
-    rlf_tracker_destroy(&f.tracker);
     begin(corner, 1, &here);
     paint(2.0);
     const rlf_track_result slid = align();
     assert_int_equal(slid.health, RLF_TRACK_GOOD);
     assert_float_equal(slid.T_world_camera.p.x, -2.0 / 183.0 * 3.0, 2e-3);
     assert_float_equal(slid.T_world_camera.p.z, 0.0, 1e-4);
-    rlf_tracker_destroy(&f.tracker);
 }
 
 /* Noise moves nothing: the pose is the prediction's, bit for bit. */
@@ -197,7 +200,6 @@ TEST_CASE(test_a_camera_at_rest_stays)
     }
     const rlf_track_result found = align();
     assert_memory_equal(&found.T_world_camera, &here, sizeof(here));
-    rlf_tracker_destroy(&f.tracker);
 }
 
 /* A guess that nothing confirms is not believed: along a wall the camera stays where it was. */
@@ -208,7 +210,6 @@ TEST_CASE(test_a_guess_along_a_wall_is_not_kept)
     const rlf_track_result found = align_from(guess);
     assert_int_equal(found.health, RLF_TRACK_WEAK);
     assert_true(rlf_length(found.T_world_camera.p) < 1e-3);
-    rlf_tracker_destroy(&f.tracker);
 }
 
 TEST_CASE(test_nothing_seen_is_lost)
@@ -221,7 +222,6 @@ TEST_CASE(test_nothing_seen_is_lost)
         f.seen[i] = i % 2 != 0 ? NAN : INFINITY;
     }
     assert_int_equal(align().health, RLF_TRACK_LOST);
-    rlf_tracker_destroy(&f.tracker);
 }
 
 TEST_CASE(test_no_pose_is_refused)
@@ -235,7 +235,6 @@ TEST_CASE(test_no_pose_is_refused)
         assert_int_equal(rlf_tracker_align(f.tracker, &view, &f.prediction, &bad[i], &result),
                          RLF_ERROR_INVALID);
     }
-    rlf_tracker_destroy(&f.tracker);
 }
 
 /* Two views that do not look alike: each is recalled by itself. */
@@ -258,7 +257,6 @@ TEST_CASE(test_a_view_is_recalled)
     view.depth = f.depth;
     assert_int_equal(rlf_tracker_recall(f.tracker, &view, poses, 4), 2);
     assert_true(poses[0].p.x == 0.0);
-    rlf_tracker_destroy(&f.tracker);
 }
 
 /* Constant velocity, but not over a jump in time. */
@@ -275,5 +273,6 @@ TEST_CASE(test_the_camera_goes_on_as_it_did)
     assert_float_equal(rlf_tracker_guess(f.tracker, 0).p.x, 0.01, 1e-9);
     assert_float_equal(rlf_tracker_guess(f.tracker, INT64_MAX).p.x, 0.01, 1e-9);
     assert_float_equal(rlf_tracker_guess(f.tracker, INT64_MIN).p.x, 0.01, 1e-9);
-    rlf_tracker_destroy(&f.tracker);
 }
+
+TEST_EACH(NULL, end)
