@@ -1,16 +1,11 @@
 /* Whatever is made and destroyed a hundred times leaves nothing behind: every block that the
  * library asks for comes back. With sanitizers the leak checker looks at the rest. */
 #include "relief/hands.h"
-#include "relief/pipeline.h"
 #include "created.h"
 #include "seen_view.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdatomic.h>
 #include <stdlib.h>
-
-#include <cmocka.h>
 
 enum { TURNS = 100, WIDTH = 40, HEIGHT = 30 };
 

@@ -3,7 +3,6 @@
 
 #include "count_assert.h"
 #include "relief/relief.h"
-#include "relief/synthetic.h"
 #include "created.h"
 #include "test.h"
 

@@ -1,9 +1,7 @@
 /* What comes at somebody from behind goes back there, though a frame has a hole in him or takes him
  * for the room: it neither stays in him nor comes out in front. */
-#include "relief/world.h"
 #include "small_world.h"
 #include "test.h"
-
 #include "grid_shared.h"
 
 #define FRONT 1.9

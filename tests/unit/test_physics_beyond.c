@@ -1,6 +1,5 @@
 /* What the picture's border cuts goes on beyond it: a leg down to the floor, a cupboard's front. */
 #include "grid_room.h"
-#include "small_world.h"
 #include "test.h"
 
 #define LEG_Z 1.5

@@ -1,8 +1,6 @@
 /* How blows are told: where two things met and which way, not where they are when it is told. */
 #include "physics/grid/contact/contact.h"
-#include "small_world.h"
 #include "test.h"
-
 #include "grid_room.h"
 
 #include <math.h>

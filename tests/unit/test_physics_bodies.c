@@ -1,7 +1,6 @@
 /* Bodies against bodies, live method. */
 #include "each_world.h"
 #include "test.h"
-
 #include "grid_fixture.h"
 
 #include <math.h>

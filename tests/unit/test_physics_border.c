@@ -1,8 +1,5 @@
 /* Beyond the camera's view the room goes on, or it does not: as the world's def says. */
-#include "relief/pipeline.h"
-#include "small_world.h"
 #include "test.h"
-
 #include "grid_room.h"
 
 #define RING 7 /* pixels without depth around the image, as depth cameras have */

@@ -1,6 +1,5 @@
 /* What is light stands under what is heavy. */
 #include "grid_room.h"
-#include "small_world.h"
 #include "test.h"
 
 #define SIDE 0.1

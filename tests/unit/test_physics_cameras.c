@@ -1,6 +1,5 @@
 /* One world that two cameras see: what one of them shows counts, what the other only guesses does
  * not. They face each other across a room, 4 m apart. */
-#include "relief/world.h"
 #include "created.h"
 #include "test.h"
 

@@ -1,7 +1,6 @@
 /* What stays turns out to be nearer than it was taken to be, and a body lies there: it comes out,
  * and falls through nothing. */
 #include "grid_room.h"
-#include "small_world.h"
 #include "test.h"
 
 #define HALF 0.05

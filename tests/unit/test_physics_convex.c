@@ -6,10 +6,7 @@
 #include "physics/shape/convex.h"
 #include "physics/shape/shape.h"
 #include "relief/query.h"
-#include "relief/world.h"
-#include "small_world.h"
 #include "test.h"
-
 #include "grid_room.h"
 
 #include <math.h>

@@ -3,7 +3,6 @@
 #include "physics/grid/cast.h"
 #include "small_world.h"
 #include "test.h"
-
 #include "grid_shared.h"
 #include "heavy.h"
 

@@ -1,7 +1,6 @@
 /* Bodies that fall without restitution stop where they land: a blow turns neither depth nor what is
  * above the ground into speed. */
 #include "grid_room.h"
-#include "small_world.h"
 #include "test.h"
 
 #include <math.h>

@@ -1,7 +1,6 @@
 /* A sensed hand that carries a stack along a curve, and a crowd that somebody walks through. */
 #include "each_world.h"
 #include "test.h"
-
 #include "grid_shared.h"
 
 #include <math.h>

@@ -1,7 +1,6 @@
 /* The broad phase against every body held against every other. */
 #include "analytic.h"
 #include "physics/pair/collide.h"
-#include "relief/world.h"
 #include "small_world.h"
 #include "test.h"
 

@@ -3,7 +3,6 @@
 #include "relief/query.h"
 #include "small_world.h"
 #include "test.h"
-
 #include "grid_fixture.h"
 
 #include <math.h>

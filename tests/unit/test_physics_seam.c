@@ -1,6 +1,5 @@
 /* Bodies across the picture's border lie on the plane that goes on as they lie within it. */
 #include "grid_room.h"
-#include "small_world.h"
 #include "test.h"
 
 #define LEVEL 0.99995 /* cosine of 0.01 */

@@ -1,9 +1,7 @@
 /* A body that something came over does not leave it through a back behind which there is no room,
  * as the sole of a foot: the floor holds against that, and it would stay for ever. */
-#include "relief/world.h"
 #include "small_world.h"
 #include "test.h"
-
 #include "grid_shared.h"
 
 #define FRONT 1.9

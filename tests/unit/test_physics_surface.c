@@ -1,7 +1,6 @@
 /* What is seen of the real surface is solid: from behind, from the side, as deep as it is. */
 #include "each_world.h"
 #include "test.h"
-
 #include "grid_shared.h"
 
 #include <math.h>

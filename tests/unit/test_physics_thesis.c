@@ -2,7 +2,6 @@
 #include "physics/thesis/thesis.h"
 #include "small_world.h"
 #include "test.h"
-
 #include "grid_fixture.h"
 
 #include <math.h>

@@ -4,7 +4,6 @@
 #include "physics/world_state.h"
 #include "small_world.h"
 #include "test.h"
-
 #include "grid_shared.h"
 #include "heavy.h"
 

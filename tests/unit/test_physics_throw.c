@@ -2,7 +2,6 @@
 #include "draws.h"
 #include "small_world.h"
 #include "test.h"
-
 #include "grid_shared.h"
 #include "heavy.h"
 

@@ -1,5 +1,4 @@
 /* The world's manners: defs, handles, capacity, bounds, determinism, no allocation. */
-#include "relief/world.h"
 #include "small_world.h"
 #include "test.h"
 

@@ -1,7 +1,5 @@
 /* Two pipelines of one world: cameras that face each other across a room with a board between
  * them. Bodies meet what either sees, and each picture hides what its own camera cannot see. */
-#include "relief/pipeline.h"
-#include "relief/synthetic.h"
 #include "created.h"
 #include "test.h"
 

@@ -1,6 +1,5 @@
 /* A projector's picture: bodies alone, where its lens throws them, and nothing of what real things
  * hide from it. */
-#include "relief/pipeline.h"
 #include "created.h"
 #include "test.h"
 

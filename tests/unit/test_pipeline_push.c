@@ -1,7 +1,5 @@
 /* Frames that a program pushes give what the same frames give when a source is asked for them. */
 
-#include "relief/pipeline.h"
-#include "relief/synthetic.h"
 #include "created.h"
 #include "test.h"
 

@@ -2,7 +2,6 @@
  * voxels, and depth of whole millimetres without noise. */
 
 #include "pipeline/moving/moving.h"
-#include "relief/reconstruct.h"
 #include "created.h"
 #include "seen_view.h"
 #include "test.h"

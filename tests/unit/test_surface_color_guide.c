@@ -1,7 +1,6 @@
 /* Dropped pixels at the outline of a disc before a wall: the colour picture tells their side, also
  * when it is not where it should be, and does nothing when it shows something else. */
 
-#include "relief/reconstruct.h"
 #include "seen_view.h"
 #include "test.h"
 

@@ -1,8 +1,6 @@
 /* Two people who walk past each other: each keeps his label, whoever is hidden meanwhile. */
 
 #include "heavy.h"
-#include "relief/reconstruct.h"
-#include "relief/synthetic.h"
 #include "created.h"
 #include "seen_view.h"
 #include "test.h"

@@ -2,8 +2,6 @@
  * label, where he is. */
 
 #include "heavy.h"
-#include "relief/reconstruct.h"
-#include "relief/synthetic.h"
 #include "created.h"
 #include "seen_view.h"
 #include "test.h"

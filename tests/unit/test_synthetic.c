@@ -3,7 +3,6 @@
  */
 
 #include "heavy.h"
-#include "relief/synthetic.h"
 #include "sim/scene.h"
 #include "created.h"
 #include "test.h"

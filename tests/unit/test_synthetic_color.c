@@ -1,6 +1,5 @@
 /* The colour camera's picture where the room covers a mover. */
 
-#include "relief/synthetic.h"
 #include "created.h"
 #include "test.h"
 

@@ -1,5 +1,4 @@
 /* The true scene at any time: distances, and the velocity that moves them. */
-#include "relief/synthetic.h"
 #include "created.h"
 #include "test.h"
 

@@ -1,6 +1,5 @@
 /* The synthetic sensor's noise: statistics against the published model and table 5.1. */
 
-#include "relief/synthetic.h"
 #include "sim/hash.h"
 #include "sim/noise.h"
 #include "created.h"

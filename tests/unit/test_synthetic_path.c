@@ -1,6 +1,5 @@
 /* A synthetic camera that moves: its poses and its pictures tell the same story. */
 
-#include "relief/synthetic.h"
 #include "created.h"
 #include "test.h"
 

@@ -3,7 +3,6 @@
 
 #include "heavy.h"
 #include "relief/base.h"
-#include "relief/synthetic.h"
 #include "sim/shape.h"
 #include "created.h"
 #include "test.h"

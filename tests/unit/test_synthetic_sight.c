@@ -1,6 +1,5 @@
 /* rlf_synthetic_cast against the truth planes, and its independence of how rays are grouped. */
 
-#include "relief/synthetic.h"
 #include "created.h"
 #include "test.h"
 
