@@ -4,6 +4,7 @@
 #define RLF_TEST_ANALYTIC_H
 
 #include "relief/reconstruct.h"
+#include "pinhole.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -13,11 +14,7 @@ static inline rlf_rig analytic_rig(int32_t width, int32_t height)
 {
     rlf_rig rig;
     memset(&rig, 0, sizeof rig);
-    rig.depth.width = width;
-    rig.depth.height = height;
-    rig.depth.fx = rig.depth.fy = 0.714 * width;
-    rig.depth.cx = 0.5 * (width - 1);
-    rig.depth.cy = 0.5 * (height - 1);
+    rig.depth = pinhole(width, height, 0.714 * width);
     rig.T_color_depth = rlf_pose_identity();
     rig.depth_min_m = 0.5;
     rig.depth_max_m = 4.5;

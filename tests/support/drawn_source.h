@@ -4,6 +4,7 @@
 #define RLF_TEST_DRAWN_SOURCE_H
 
 #include "created.h"
+#include "pinhole.h"
 
 #include <string.h>
 
@@ -54,12 +55,7 @@ static inline rlf_source_info drawn_info(int32_t width, int32_t height, double f
                                          int64_t frame_count)
 {
     rlf_source_info info = {.name = "drawn", .frame_count = frame_count, .frames_per_second = 30};
-    info.rig.depth = (rlf_camera){.width = width,
-                                  .height = height,
-                                  .fx = focal,
-                                  .fy = focal,
-                                  .cx = 0.5 * (width - 1),
-                                  .cy = 0.5 * (height - 1)};
+    info.rig.depth = pinhole(width, height, focal);
     info.rig.T_color_depth = rlf_pose_identity();
     info.rig.depth_min_m = 0.3;
     info.rig.depth_max_m = 8.0;

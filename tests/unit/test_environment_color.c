@@ -1,6 +1,7 @@
 /* Pixels whose depth was lost beside foreground, settled by the remembered colour of the room. */
 
 #include "environment/real_depth.h"
+#include "pinhole.h"
 #include "test.h"
 
 #include <string.h>
@@ -85,13 +86,8 @@ static int set_up(void **state)
 {
     (void)state;
     memset(&s, 0, sizeof(s));
-    s.depth_camera = (rlf_camera){.width = WIDTH, .height = HEIGHT, .fx = 100, .fy = 100};
-    s.color_camera =
-        (rlf_camera){.width = COLOR_WIDTH, .height = COLOR_HEIGHT, .fx = 150, .fy = 150};
-    s.depth_camera.cx = 0.5 * (WIDTH - 1);
-    s.depth_camera.cy = 0.5 * (HEIGHT - 1);
-    s.color_camera.cx = 0.5 * (COLOR_WIDTH - 1);
-    s.color_camera.cy = 0.5 * (COLOR_HEIGHT - 1);
+    s.depth_camera = pinhole(WIDTH, HEIGHT, 100);
+    s.color_camera = pinhole(COLOR_WIDTH, COLOR_HEIGHT, 150);
     s.T_color_depth = rlf_pose_identity();
     s.T_color_depth.p.x = -0.05;
     for (int32_t i = 0; i < PIXELS; i++) {

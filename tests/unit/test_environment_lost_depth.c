@@ -1,6 +1,7 @@
 /* Depth of pixels that return no light, and what is seen of virtual things there. */
 
 #include "environment/real_depth.h"
+#include "pinhole.h"
 #include "test.h"
 
 #include <string.h>
@@ -86,9 +87,7 @@ static int set_up(void **state)
     (void)state;
     memset(&s, 0, sizeof(s));
     s.seed = 7;
-    s.camera = (rlf_camera){.width = WIDTH, .height = HEIGHT, .fx = 150, .fy = 150};
-    s.camera.cx = 0.5 * (WIDTH - 1);
-    s.camera.cy = 0.5 * (HEIGHT - 1);
+    s.camera = pinhole(WIDTH, HEIGHT, 150);
     s.T_picture_depth = rlf_pose_identity();
     for (int32_t i = 0; i < PIXELS; i++) {
         s.ray_x[i] = (float)((i % WIDTH - s.camera.cx) / s.camera.fx);

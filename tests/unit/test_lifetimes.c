@@ -2,6 +2,7 @@
  * library asks for comes back. With sanitizers the leak checker looks at the rest. */
 #include "relief/hands.h"
 #include "created.h"
+#include "pinhole.h"
 #include "seen_view.h"
 
 #include <stdatomic.h>
@@ -57,12 +58,7 @@ TEST_CASE(test_worlds)
 static rlf_rig small_rig(void)
 {
     rlf_rig rig = rlf_rig_default();
-    rig.depth = (rlf_camera){.width = WIDTH,
-                             .height = HEIGHT,
-                             .fx = 30.0,
-                             .fy = 30.0,
-                             .cx = 0.5 * (WIDTH - 1),
-                             .cy = 0.5 * (HEIGHT - 1)};
+    rig.depth = pinhole(WIDTH, HEIGHT, 30.0);
     return rig;
 }
 

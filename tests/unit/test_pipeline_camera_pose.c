@@ -4,6 +4,7 @@
 #include "pipeline/moving/moving.h"
 #include "analytic.h"
 #include "created.h"
+#include "pinhole.h"
 #include "test.h"
 
 #include <math.h>
@@ -131,8 +132,7 @@ static rlf_pose turned(double yaw)
 static void open_room(void)
 {
     memset(&f, 0, sizeof(f));
-    f.rig.depth = (rlf_camera){
-        .width = WIDTH, .height = HEIGHT, .fx = 183.0, .fy = 183.0, .cx = 127.5, .cy = 105.5};
+    f.rig.depth = pinhole(WIDTH, HEIGHT, 183.0);
     f.rig.depth_min_m = 0.3;
     f.rig.depth_max_m = 8.0;
     f.rig.noise = (rlf_depth_noise){0.0015, -0.0005, 0.0003};

@@ -1,6 +1,7 @@
 /* Two pipelines of one world: cameras that face each other across a room with a board between
  * them. Bodies meet what either sees, and each picture hides what its own camera cannot see. */
 #include "created.h"
+#include "pinhole.h"
 #include "test.h"
 
 #include <math.h>
@@ -28,12 +29,7 @@ typedef struct eye {
 static rlf_rig rig(void)
 {
     rlf_rig out = rlf_rig_default();
-    out.depth = (rlf_camera){.width = WIDTH,
-                             .height = HEIGHT,
-                             .fx = FOCAL,
-                             .fy = FOCAL,
-                             .cx = 0.5 * (WIDTH - 1),
-                             .cy = 0.5 * (HEIGHT - 1)};
+    out.depth = pinhole(WIDTH, HEIGHT, FOCAL);
     return out;
 }
 

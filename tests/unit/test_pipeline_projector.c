@@ -1,6 +1,7 @@
 /* A projector's picture: bodies alone, where its lens throws them, and nothing of what real things
  * hide from it. */
 #include "created.h"
+#include "pinhole.h"
 #include "test.h"
 
 #include <math.h>
@@ -23,8 +24,7 @@ static room *make_room(double wall_m, double board_m)
     room *r = calloc(1, sizeof *r);
     assert_non_null(r);
     r->rig = rlf_rig_default();
-    r->rig.depth = (rlf_camera){
-        .width = WIDTH, .height = HEIGHT, .fx = 260, .fy = 260, .cx = 159.5, .cy = 119.5};
+    r->rig.depth = pinhole(WIDTH, HEIGHT, 260);
     r->rig.color = r->rig.depth;
     r->rig.has_color = true;
     r->rig.T_color_depth = rlf_pose_identity();

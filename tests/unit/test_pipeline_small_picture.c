@@ -3,6 +3,7 @@
 
 #include "pipeline/moving/moving.h"
 #include "created.h"
+#include "pinhole.h"
 #include "seen_view.h"
 #include "test.h"
 
@@ -83,12 +84,7 @@ static void open_stage(void)
 static void begin(int32_t width, int32_t height, double focal, double voxel_m)
 {
     memset(&f, 0, sizeof(f));
-    f.rig.depth = (rlf_camera){.width = width,
-                               .height = height,
-                               .fx = focal,
-                               .fy = focal,
-                               .cx = 0.5 * (width - 1),
-                               .cy = 0.5 * (height - 1)};
+    f.rig.depth = pinhole(width, height, focal);
     f.rig.depth_min_m = 0.1;
     f.rig.depth_max_m = 8.0;
     f.rig.noise = (rlf_depth_noise){0.0015, -0.0005, 0.0003};

@@ -1,6 +1,7 @@
 /* The tracker against rooms of planes, of which everything is known. */
 
 #include "relief/track.h"
+#include "pinhole.h"
 #include "test.h"
 
 #include <math.h>
@@ -71,8 +72,7 @@ static void begin(const plane *planes, int count, const rlf_pose *T)
     const rlf_pose identity = rlf_pose_identity();
     end(NULL);
     memset(&f, 0, sizeof(f));
-    f.rig.depth = (rlf_camera){
-        .width = WIDTH, .height = HEIGHT, .fx = 183.0, .fy = 183.0, .cx = 127.5, .cy = 105.5};
+    f.rig.depth = pinhole(WIDTH, HEIGHT, 183.0);
     f.rig.depth_min_m = 0.3;
     f.rig.depth_max_m = 8.0;
     f.rig.noise = (rlf_depth_noise){0.0015, -0.0005, 0.0003};
