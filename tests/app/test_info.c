@@ -40,17 +40,14 @@ static color_fit_result fit_with(const char *name, double cx, double cy, bool dr
 
 static void expect_offset(const color_fit_result *r, double x, double y)
 {
-    print_message("offset %.2f %.2f +- %.2f %.2f, wanted %.2f %.2f\n", r->x, r->y, r->error_x,
-                  r->error_y, x, y);
     assert_true(r->is_known);
     assert_true(fabs(r->x - x) <= 1.0);
     assert_true(fabs(r->y - y) <= 1.0);
 }
 
 /* Calibration that puts colour too far left finds the picture that far to the right. */
-static void a_known_shift_is_found_to_a_pixel(void **state)
+TEST_CASE(a_known_shift_is_found_to_a_pixel)
 {
-    (void)state;
     const char *const rooms[] = {"synthetic:room?frames=9", "synthetic:random?seed=3&frames=9",
                                  "synthetic:random?seed=5&frames=9"};
     const double shifts[4][2] = {{0, 0}, {-3, 2}, {6, 0}, {4, -5}};
@@ -64,19 +61,16 @@ static void a_known_shift_is_found_to_a_pixel(void **state)
 }
 
 /* The room's cameras are 52 mm apart: without the transform near things are off by more. */
-static void a_missing_transform_is_off_by_more_near_by(void **state)
+TEST_CASE(a_missing_transform_is_off_by_more_near_by)
 {
-    (void)state;
     const color_fit_result fit = fit_with("synthetic:room?frames=9", 0, 0, true);
-    print_message("near %.2f far %.2f\n", fit.near_x, fit.far_x);
     assert_true(fit.is_known && color_fit_is_off(&fit));
     assert_true(fit.x < -6.0); /* f b / z = 540 x 0.052 / 3 = 9 */
     assert_true(fabs(fit.y) <= 1.0);
 }
 
-static void without_edges_nothing_is_said(void **state)
+TEST_CASE(without_edges_nothing_is_said)
 {
-    (void)state;
     const rlf_camera lens = {.width = 64, .height = 48, .fx = 60, .fy = 60, .cx = 32, .cy = 24};
     const rlf_rig rig = {.depth = lens,
                          .color = lens,
@@ -124,9 +118,8 @@ static double normal(uint32_t *state)
 }
 
 /* Left third at 0.8 m with 2 mm, middle at 2.2 m with 8 mm, right third moves. */
-static void noise_is_found_where_nothing_moves(void **state)
+TEST_CASE(noise_is_found_where_nothing_moves)
 {
-    (void)state;
     stillness *s = stillness_create(&small_rig);
     static float depth[W * H];
     uint32_t random = 1;
@@ -151,9 +144,8 @@ static void noise_is_found_where_nothing_moves(void **state)
 
 /* Noise that lasts from frame to frame, as structured light has it, in steps of depth, with holes;
  * a sensor that is noisier than it is taken to be; and edges, which take both sides in turn. */
-static void a_still_room_is_still_whatever_its_noise(void **state)
+TEST_CASE(a_still_room_is_still_whatever_its_noise)
 {
-    (void)state;
     stillness *s = stillness_create(&small_rig);
     static float depth[W * H], lasting[W * H];
     uint32_t random = 5;
@@ -178,9 +170,8 @@ static void a_still_room_is_still_whatever_its_noise(void **state)
     stillness_destroy(&s);
 }
 
-static void noise_over_the_end_of_the_scale_is_not_measured(void **state)
+TEST_CASE(noise_over_the_end_of_the_scale_is_not_measured)
 {
-    (void)state;
     stillness *s = stillness_create(&small_rig);
     static float depth[W * H];
     uint32_t random = 9;
@@ -202,9 +193,8 @@ static void noise_over_the_end_of_the_scale_is_not_measured(void **state)
 /* ---- missing pixels ---------------------------------------------------------------------------
  */
 
-static void missing_pixels_are_told_apart(void **state)
+TEST_CASE(missing_pixels_are_told_apart)
 {
-    (void)state;
     static float depth[W * H];
     for (int y = 0; y < H; y++) {
         for (int x = 0; x < W; x++) {
@@ -234,9 +224,8 @@ static void missing_pixels_are_told_apart(void **state)
 /* ---- a whole survey ---------------------------------------------------------------------------
  */
 
-static void a_survey_counts_what_comes(void **state)
+TEST_CASE(a_survey_counts_what_comes)
 {
-    (void)state;
     rlf_source *source = NULL;
     assert_int_equal(rlf_open_source("synthetic:room?frames=12&fps=25", NULL, &source), RLF_OK);
     static survey s;
@@ -252,19 +241,4 @@ static void a_survey_counts_what_comes(void **state)
     assert_true(s.has_fit && s.fit.frames == 12);
     assert_true(missing_percent_all(&s.missing) > 1.0);
     rlf_source_destroy(&source);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_known_shift_is_found_to_a_pixel),
-        cmocka_unit_test(a_missing_transform_is_off_by_more_near_by),
-        cmocka_unit_test(without_edges_nothing_is_said),
-        cmocka_unit_test(noise_is_found_where_nothing_moves),
-        cmocka_unit_test(a_still_room_is_still_whatever_its_noise),
-        cmocka_unit_test(noise_over_the_end_of_the_scale_is_not_measured),
-        cmocka_unit_test(missing_pixels_are_told_apart),
-        cmocka_unit_test(a_survey_counts_what_comes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

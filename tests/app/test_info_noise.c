@@ -37,9 +37,8 @@ static info_noise *measure(double unit_m, int32_t frames)
     return noise;
 }
 
-static void noise_is_found_at_every_step(void **state)
+TEST_CASE(noise_is_found_at_every_step)
 {
-    (void)state;
     const double units_m[] = {0.0, 0.001, 0.005};
     for (int u = 0; u < 3; u++) {
         info_noise *noise = measure(units_m[u], 4);
@@ -52,22 +51,12 @@ static void noise_is_found_at_every_step(void **state)
     }
 }
 
-static void one_frame_has_no_noise_in_time(void **state)
+TEST_CASE(one_frame_has_no_noise_in_time)
 {
-    (void)state;
     info_noise *noise = measure(0.0, 1);
     assert_int_equal(info_noise_frames(noise), 1);
     assert_true(info_noise_sigma(noise, NOISE_TEMPORAL, 4) < 0.0);
     assert_true(info_noise_sigma(noise, NOISE_STEP_1, 4) > 0.0);
     assert_true(info_noise_sigma(noise, NOISE_STEP_1, 12) < 0.0); /* nothing is that far */
     info_noise_destroy(&noise);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(noise_is_found_at_every_step),
-        cmocka_unit_test(one_frame_has_no_noise_in_time),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

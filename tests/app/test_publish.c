@@ -10,9 +10,8 @@
 
 /* ---- addresses ------------------------------------------------------------------------------- */
 
-static void addresses_stay_on_this_machine_unless_told(void **state)
+TEST_CASE(addresses_stay_on_this_machine_unless_told)
 {
-    (void)state;
     publish_list list = {0};
     assert_true(publish_take("ws:9980", &list));
     assert_string_equal(list.items[0].host, "127.0.0.1");
@@ -36,9 +35,8 @@ static void addresses_stay_on_this_machine_unless_told(void **state)
     assert_false(publish_take("ws:2", &list)); /* one too many */
 }
 
-static void what_is_no_address_is_refused(void **state)
+TEST_CASE(what_is_no_address_is_refused)
 {
-    (void)state;
     static const char *const wrong[] = {
         "",       "ws",        "ws:",       "ws:x",  "ws:-1",  "ws:65536",     "http:80", "osc:0",
         "osc::9", "osc:a b:9", "osc:::1:9", "ws:1 ", "ws:/:1", "osc:a/b:9000", "osc:1e3"};
@@ -54,9 +52,8 @@ static void what_is_no_address_is_refused(void **state)
     assert_false(publish_take(host, &list));
 }
 
-static void web_pages_of_others_may_not_connect(void **state)
+TEST_CASE(web_pages_of_others_may_not_connect)
 {
-    (void)state;
     static const char *const right[] = {
         "",        "http://localhost", "http://localhost:8080", "https://127.0.0.1:1",
         "file://", "http://mine"};
@@ -93,9 +90,8 @@ static double number_at(const json_t *of, const char *key, size_t index)
     return json_number_value(value);
 }
 
-static void a_frame_is_one_object(void **state)
+TEST_CASE(a_frame_is_one_object)
 {
-    (void)state;
     memset(&moment, 0, sizeof moment);
     moment.is_whole = true;
     moment.index = 7;
@@ -169,9 +165,8 @@ static rlf_pipeline_output one_touch(void)
     return frame;
 }
 
-static void a_moment_is_in_the_world_frame(void **state)
+TEST_CASE(a_moment_is_in_the_world_frame)
 {
-    (void)state;
     const rlf_pipeline_output frame = one_touch();
     assert_true(publish_moment_fill(&moment, &frame, true));
     assert_int_equal(moment.body_count, 1);
@@ -192,9 +187,8 @@ static void a_moment_is_in_the_world_frame(void **state)
     assert_float_equal(r->box.max.z, 1.0, 1e-9);
 }
 
-static void thinned_frames_keep_their_events(void **state)
+TEST_CASE(thinned_frames_keep_their_events)
 {
-    (void)state;
     const rlf_pipeline_output frame = one_touch();
     assert_true(publish_moment_fill(&moment, &frame, false));
     assert_int_equal(moment.body_count, 0);
@@ -216,9 +210,8 @@ static bool read_command(const char *text)
     return publish_command_from_json(text, strlen(text), &command, error);
 }
 
-static void a_body_is_as_it_was_asked_for(void **state)
+TEST_CASE(a_body_is_as_it_was_asked_for)
 {
-    (void)state;
     assert_true(read_command("{\"type\":\"spawn\",\"shape\":\"sphere\",\"radius\":0.1,\"position\":"
                              "[1,2,3],\"velocity\":[0,-1,0.5],\"name\":\"red\",\"mass\":2,"
                              "\"restitution\":1,\"friction\":0,\"color\":[1,0,0]}"));
@@ -248,9 +241,8 @@ static void a_body_is_as_it_was_asked_for(void **state)
     rlf_world_destroy(&world);
 }
 
-static void other_commands_are_read(void **state)
+TEST_CASE(other_commands_are_read)
 {
-    (void)state;
     assert_true(read_command("{\"type\":\"gravity\",\"value\":[0,1.6,0]}"));
     assert_true(command.gravity.y == 1.6);
     assert_true(read_command("{\"type\":\"record\",\"on\":true}"));
@@ -262,9 +254,8 @@ static void other_commands_are_read(void **state)
     assert_true(read_command("{\"type\":\"hello\"}"));
 }
 
-static void hostile_commands_are_refused_with_a_line(void **state)
+TEST_CASE(hostile_commands_are_refused_with_a_line)
 {
-    (void)state;
     static const struct {
         const char *text, *says;
     } wrong[] = {
@@ -316,9 +307,8 @@ static void hostile_commands_are_refused_with_a_line(void **state)
     }
 }
 
-static void deep_and_long_texts_are_refused(void **state)
+TEST_CASE(deep_and_long_texts_are_refused)
 {
-    (void)state;
     static char text[PUBLISH_TEXT_MAX + 2];
     memset(text, '[', PUBLISH_TEXT_MAX);
     assert_false(read_command(text));
@@ -329,9 +319,8 @@ static void deep_and_long_texts_are_refused(void **state)
 
 /* ---- queues ---------------------------------------------------------------------------------- */
 
-static void the_newest_frames_win(void **state)
+TEST_CASE(the_newest_frames_win)
 {
-    (void)state;
     static publish_channel c;
     memset(&c, 0, sizeof c);
     c.address.every = 1;
@@ -354,9 +343,8 @@ static void the_newest_frames_win(void **state)
     publish_channel_free(&c);
 }
 
-static void no_more_commands_wait_than_there_is_room_for(void **state)
+TEST_CASE(no_more_commands_wait_than_there_is_room_for)
 {
-    (void)state;
     static publish_channel c;
     static publish_command taken[PUBLISH_COMMANDS];
     memset(&c, 0, sizeof c);
@@ -374,9 +362,8 @@ static void no_more_commands_wait_than_there_is_room_for(void **state)
 
 /* ---- scenes ---------------------------------------------------------------------------------- */
 
-static void scenes_are_those_beside_the_run_s(void **state)
+TEST_CASE(scenes_are_those_beside_the_run_s)
 {
-    (void)state;
     publish_scenes *s = NULL;
     assert_int_equal(publish_scenes_create(RLF_TEST_ROOT "/scenes/rain.json", &s), RLF_OK);
     const rlf_scene *found = publish_scenes_find(s, "stack.json", error);
@@ -396,24 +383,4 @@ static void scenes_are_those_beside_the_run_s(void **state)
     assert_int_equal(publish_scenes_create(NULL, &s), RLF_OK);
     assert_null(publish_scenes_find(s, "stack.json", error));
     publish_scenes_destroy(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(addresses_stay_on_this_machine_unless_told),
-        cmocka_unit_test(what_is_no_address_is_refused),
-        cmocka_unit_test(web_pages_of_others_may_not_connect),
-        cmocka_unit_test(a_frame_is_one_object),
-        cmocka_unit_test(a_moment_is_in_the_world_frame),
-        cmocka_unit_test(thinned_frames_keep_their_events),
-        cmocka_unit_test(a_body_is_as_it_was_asked_for),
-        cmocka_unit_test(other_commands_are_read),
-        cmocka_unit_test(hostile_commands_are_refused_with_a_line),
-        cmocka_unit_test(deep_and_long_texts_are_refused),
-        cmocka_unit_test(the_newest_frames_win),
-        cmocka_unit_test(no_more_commands_wait_than_there_is_room_for),
-        cmocka_unit_test(scenes_are_those_beside_the_run_s),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

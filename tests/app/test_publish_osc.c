@@ -51,9 +51,8 @@ static lo_message message_of(const char *types, const char *text, const float *n
     return m;
 }
 
-static void commands_are_read(void **state)
+TEST_CASE(commands_are_read)
 {
-    (void)state;
     const float n[8] = {0.25f, 0.5f, 0.0f, 2.0f, 1.0f, 0.0f, -1.0f};
     read_message("/relief/spawn", message_of("sffff", "sphere", n));
     assert_int_equal(good, 1);
@@ -76,9 +75,8 @@ static void commands_are_read(void **state)
     assert_int_equal(good, 1);
 }
 
-static void hostile_packets_are_refused(void **state)
+TEST_CASE(hostile_packets_are_refused)
 {
-    (void)state;
     const float n[12] = {0.25f, NAN, 0.0f, 2.0f, 1.0f, 0.0f, INFINITY};
     static const struct {
         const char *path, *types, *text;
@@ -110,9 +108,8 @@ static void hostile_packets_are_refused(void **state)
     assert_int_equal(bad, 1);
 }
 
-static void half_a_packet_is_none(void **state)
+TEST_CASE(half_a_packet_is_none)
 {
-    (void)state;
     const float n[4] = {0.25f, 0.5f, 0.0f, 2.0f};
     size_t size = 0;
     lo_message message = message_of("sffff", "sphere", n);
@@ -131,9 +128,8 @@ static void half_a_packet_is_none(void **state)
     assert_true(good == 0 && bad == 1);
 }
 
-static void a_bundle_is_its_messages(void **state)
+TEST_CASE(a_bundle_is_its_messages)
 {
-    (void)state;
     const lo_timetag in_a_year = {0xffffffffu, 0};
     lo_bundle bundle = lo_bundle_new(in_a_year);
     lo_bundle_add_message(bundle, "/relief/clear", message_of("", "", NULL));
@@ -183,9 +179,8 @@ static void take_packet(void *context, const void *packet, size_t size)
     }
 }
 
-static void frames_fit_packets(void **state)
+TEST_CASE(frames_fit_packets)
 {
-    (void)state;
     memset(&moment, 0, sizeof moment);
     moment.is_whole = true;
     moment.body_count = PUBLISH_BODIES;
@@ -206,14 +201,4 @@ static void frames_fit_packets(void **state)
     assert_int_equal(messages, 1 + PUBLISH_BODIES + PUBLISH_CONTACTS + PUBLISH_REGIONS +
                                    RLF_HANDS_MAX + RLF_HAND_EVENTS_MAX);
     assert_true(packets > 100 && largest > PUBLISH_PACKET / 2);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(commands_are_read),     cmocka_unit_test(hostile_packets_are_refused),
-        cmocka_unit_test(half_a_packet_is_none), cmocka_unit_test(a_bundle_is_its_messages),
-        cmocka_unit_test(frames_fit_packets),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,9 +4,8 @@
 #include "state_folder.h"
 #include "test.h"
 
-static void the_newest_recordings_come_first(void **state)
+TEST_CASE(the_newest_recordings_come_first)
 {
-    (void)state;
     char here[400], state_folder[512];
     recent_list list;
     assert_non_null(getcwd(here, sizeof(here)));
@@ -35,9 +34,8 @@ static void the_newest_recordings_come_first(void **state)
     }
 }
 
-static void without_a_home_nothing_is_kept(void **state)
+TEST_CASE(without_a_home_nothing_is_kept)
 {
-    (void)state;
     recent_list list;
     unsetenv("XDG_STATE_HOME");
     unsetenv("HOME");
@@ -46,13 +44,4 @@ static void without_a_home_nothing_is_kept(void **state)
     assert_int_equal(list.count, 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(the_newest_recordings_come_first, test_folder_make,
-                                        test_folder_remove),
-        cmocka_unit_test_setup_teardown(without_a_home_nothing_is_kept, test_folder_make,
-                                        test_folder_remove),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(test_folder_make, test_folder_remove)

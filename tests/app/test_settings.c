@@ -11,9 +11,8 @@ static rlf_reconstruct_def def_of(rlf_profile profile)
     return rlf_reconstruct_def_default(profile, &rig);
 }
 
-static void a_setting_reaches_its_field_alone(void **state)
+TEST_CASE(a_setting_reaches_its_field_alone)
 {
-    (void)state;
     setting_list list = {0};
     assert_int_equal(settings_add(&list, "fill=off"), RLF_OK);
     assert_int_equal(settings_add(&list, "background_method=average"), RLF_OK);
@@ -28,9 +27,8 @@ static void a_setting_reaches_its_field_alone(void **state)
     assert_memory_equal(&def, &expected, sizeof def);
 }
 
-static void the_last_one_wins(void **state)
+TEST_CASE(the_last_one_wins)
 {
-    (void)state;
     setting_list list = {0};
     assert_int_equal(settings_add(&list, "hold=off"), RLF_OK);
     assert_int_equal(settings_add(&list, "hold=on"), RLF_OK);
@@ -39,9 +37,8 @@ static void the_last_one_wins(void **state)
     assert_true(def.enable_hold);
 }
 
-static void what_has_no_effect_is_told(void **state)
+TEST_CASE(what_has_no_effect_is_told)
 {
-    (void)state;
     rlf_reconstruct_def live = def_of(RLF_PROFILE_LIVE), thesis = def_of(RLF_PROFILE_THESIS);
     assert_non_null(settings_need("segment_tau_m=0.1", &live));
     assert_null(settings_need("segment_tau_m=0.1", &thesis));
@@ -55,9 +52,8 @@ static void what_has_no_effect_is_told(void **state)
     assert_null(settings_need("depth_max_m=3", &live));
 }
 
-static void what_is_no_setting_is_refused(void **state)
+TEST_CASE(what_is_no_setting_is_refused)
 {
-    (void)state;
     static const char *const wrong[] = {"",
                                         "fill",
                                         "fill=",
@@ -78,9 +74,8 @@ static void what_is_no_setting_is_refused(void **state)
     assert_int_equal(list.count, 0);
 }
 
-static void there_is_an_end_to_them(void **state)
+TEST_CASE(there_is_an_end_to_them)
 {
-    (void)state;
     setting_list list = {0};
     for (int i = 0; i < SETTINGS_MAX; i++) {
         assert_int_equal(settings_add(&list, "fill=on"), RLF_OK);
@@ -89,9 +84,8 @@ static void there_is_an_end_to_them(void **state)
 }
 
 /* What `relief list settings` and the window's panel show can be given back. */
-static void every_setting_shows_what_it_is(void **state)
+TEST_CASE(every_setting_shows_what_it_is)
 {
-    (void)state;
     const rlf_reconstruct_def live = def_of(RLF_PROFILE_LIVE);
     for (int32_t i = 0; i < settings_count(); i++) {
         setting_view view;
@@ -106,17 +100,4 @@ static void every_setting_shows_what_it_is(void **state)
         assert_int_equal(view.is_switch && strcmp(view.words[1], "on") != 0, 0);
         assert_true(view.need == settings_need(text, &live));
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_setting_reaches_its_field_alone),
-        cmocka_unit_test(the_last_one_wins),
-        cmocka_unit_test(what_has_no_effect_is_told),
-        cmocka_unit_test(what_is_no_setting_is_refused),
-        cmocka_unit_test(there_is_an_end_to_them),
-        cmocka_unit_test(every_setting_shows_what_it_is),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

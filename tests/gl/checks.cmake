@@ -17,7 +17,7 @@ foreach(name viewer_test viewer_live_test viewer_output_test viewer_play_test)
   target_compile_definitions(${name} PRIVATE _POSIX_C_SOURCE=200809L)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/tests/support)
   target_link_libraries(${name} PRIVATE relief_window relief_gl relief_io relief_sim relief PkgConfig::glfw3
-                        PkgConfig::epoxy PkgConfig::cmocka m)
+                        PkgConfig::epoxy relief_test_main m)
   add_test(NAME gl.${what} COMMAND ${launcher} $<TARGET_FILE:${name}>)
   # Window system and driver libraries are unloaded with memory they still hold.
   set_tests_properties(gl.${what} PROPERTIES LABELS gl TIMEOUT 1800

@@ -45,9 +45,8 @@ static rlf_result play_stopping(void *context, const rlf_pipeline_output *frame)
     return RLF_OK;
 }
 
-static void test_camera_stops(void **state)
+TEST_CASE(test_camera_stops)
 {
-    (void)state;
     if (!has_display()) {
         skip();
     }
@@ -119,9 +118,8 @@ static const char *choose(page p, rlf_result expected)
     return choice.source;
 }
 
-static void test_start_page(void **state)
+TEST_CASE(test_start_page)
 {
-    (void)state;
     if (!has_display()) {
         skip();
     }
@@ -141,13 +139,4 @@ static void test_start_page(void **state)
     page p = {.first_key = GLFW_KEY_H, .click_row = -1};
     rlf_window_choice choice;
     assert_int_equal(rlf_window_choose(list_choices, &p, &interrupted, &choice), RLF_END);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_camera_stops),
-        cmocka_unit_test(test_start_page),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

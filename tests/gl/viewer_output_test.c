@@ -26,9 +26,8 @@ static void map(const rlf_mat3 *m, double x, double y, double out[2])
     out[1] = (m->m[1][0] * x + m->m[1][1] * y + m->m[1][2]) / z;
 }
 
-static void test_corners(void **state)
+TEST_CASE(test_corners)
 {
-    (void)state;
     viewer_corners c = {.selected = 0};
     viewer_corners_reset(&c);
     assert_true(viewer_corners_set(&c, askew));
@@ -57,9 +56,8 @@ static void test_corners(void **state)
     assert_float_equal(c.at[0], 0.01, 1e-12);
 }
 
-static void test_corners_are_kept(void **state)
+TEST_CASE(test_corners_are_kept)
 {
-    (void)state;
     viewer_corners c = {.selected = 0}, again;
     assert_true(viewer_corners_set(&c, askew));
     assert_int_equal(viewer_corners_save(&c, "corners"), RLF_OK);
@@ -80,9 +78,8 @@ static void test_corners_are_kept(void **state)
 }
 
 /* A picture of 200 x 100 that fills a window of 400 x 400 is four times as large, and cut. */
-static void test_pick(void **state)
+TEST_CASE(test_pick)
 {
-    (void)state;
     viewer_corners c = {.selected = 0};
     viewer_fit fit = {400, 400, 200, 100, true, NULL};
     double u, v;
@@ -97,9 +94,8 @@ static void test_pick(void **state)
 }
 
 /* Folders first, by name; hidden and other files are left out. */
-static void test_files(void **state)
+TEST_CASE(test_files)
 {
-    (void)state;
     static viewer_files files;
     char path[VIEWER_FILES_PATH];
     (void)mkdir("list_of_files", 0777);
@@ -141,9 +137,8 @@ static void check_pixel(int x, int y_from_top, int red)
     assert_in_range(pixel[0] + 2, red, red + 4);
 }
 
-static void test_presenter(void **state)
+TEST_CASE(test_presenter)
 {
-    (void)state;
     if (!has_display()) {
         skip();
     }
@@ -243,9 +238,8 @@ static rlf_result play_deleting(void *context, const rlf_pipeline_output *frame)
     return RLF_OK;
 }
 
-static void test_bodies_come_back(void **state)
+TEST_CASE(test_bodies_come_back)
 {
-    (void)state;
     if (!has_display()) {
         skip();
     }
@@ -314,9 +308,8 @@ static rlf_result play_unattended(void *context, const rlf_pipeline_output *fram
     return RLF_OK;
 }
 
-static void test_kiosk(void **state)
+TEST_CASE(test_kiosk)
 {
-    (void)state;
     if (!has_display()) {
         skip();
     }
@@ -361,9 +354,8 @@ static rlf_result play_hurried(void *context, const rlf_pipeline_output *frame)
 }
 
 /* A thousand frames a second are more than any machine can draw. */
-static void test_pace(void **state)
+TEST_CASE(test_pace)
 {
-    (void)state;
     if (!has_display()) {
         skip();
     }
@@ -391,15 +383,4 @@ static void test_pace(void **state)
         rlf_pipeline_destroy(&pipeline);
         rlf_source_destroy(&source);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_corners),   cmocka_unit_test(test_corners_are_kept),
-        cmocka_unit_test(test_pick),      cmocka_unit_test(test_files),
-        cmocka_unit_test(test_presenter), cmocka_unit_test(test_bodies_come_back),
-        cmocka_unit_test(test_kiosk),     cmocka_unit_test(test_pace),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -32,9 +32,8 @@ static rlf_frame next(rlf_source *source)
 }
 
 /* Four frames of a recording of three: the first again, and its time goes on. */
-static void test_loop(void **state)
+TEST_CASE(test_loop)
 {
-    (void)state;
     rlf_playback *p = NULL;
     rlf_source *source = open_room(3);
     assert_int_equal(rlf_playback_wrap(&source, RLF_PLAYBACK_LOOP, &p), RLF_OK);
@@ -51,9 +50,8 @@ static void test_loop(void **state)
     rlf_source_destroy(&source);
 }
 
-static void test_hold_and_stop(void **state)
+TEST_CASE(test_hold_and_stop)
 {
-    (void)state;
     rlf_playback *p = NULL;
     rlf_frame frame;
     rlf_source *source = open_room(2);
@@ -70,9 +68,8 @@ static void test_hold_and_stop(void **state)
     rlf_source_destroy(&source);
 }
 
-static void test_seek(void **state)
+TEST_CASE(test_seek)
 {
-    (void)state;
     rlf_playback *p = NULL;
     rlf_source *source = open_room(20);
     rlf_source *plain = open_room(20);
@@ -145,9 +142,8 @@ static void check_carried(double rate)
     rlf_world_destroy(&world);
 }
 
-static void test_grab(void **state)
+TEST_CASE(test_grab)
 {
-    (void)state;
     check_carried(15.0);
     check_carried(30.0);
     check_carried(120.0);
@@ -246,9 +242,8 @@ static rlf_result play_mouse(void *context, const rlf_pipeline_output *frame)
     return RLF_OK;
 }
 
-static void test_mouse_and_drops(void **state)
+TEST_CASE(test_mouse_and_drops)
 {
-    (void)state;
     if (!has_display()) {
         skip();
     }
@@ -302,9 +297,8 @@ static rlf_result play_screens(void *context, const rlf_pipeline_output *frame)
     return RLF_OK;
 }
 
-static void test_monitors(void **state)
+TEST_CASE(test_monitors)
 {
-    (void)state;
     if (!has_display()) {
         skip();
     }
@@ -329,17 +323,4 @@ static void test_monitors(void **state)
     assert_non_null(strstr(rlf_error_text(), "no monitor 9: 1 is"));
     rlf_pipeline_destroy(&pipeline);
     rlf_source_destroy(&source);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_loop),
-        cmocka_unit_test(test_hold_and_stop),
-        cmocka_unit_test(test_seek),
-        cmocka_unit_test(test_grab),
-        cmocka_unit_test(test_mouse_and_drops),
-        cmocka_unit_test(test_monitors),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

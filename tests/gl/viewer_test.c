@@ -13,9 +13,8 @@
 
 /* ---- mouse ---------------------------------------------------------------------------------- */
 
-static void test_pick(void **state)
+TEST_CASE(test_pick)
 {
-    (void)state;
     /* A picture of 200 x 100 in a window of 400 x 400: twice as large, bars of 100 above and below.
      */
     const viewer_fit fit = {400, 400, 200, 100, false, NULL};
@@ -31,9 +30,8 @@ static void test_pick(void **state)
 }
 
 /* A point on the ray through a pixel projects back to the pixel. */
-static void test_ray(void **state)
+TEST_CASE(test_ray)
 {
-    (void)state;
     rlf_compositor_def def = rlf_compositor_def_default();
     def.rig.has_color = true;
     def.rig.color = (rlf_camera){
@@ -56,9 +54,8 @@ static void test_ray(void **state)
     assert_float_equal(v, 77.0, 1e-6);
 }
 
-static void test_throw(void **state)
+TEST_CASE(test_throw)
 {
-    (void)state;
     assert_float_equal(viewer_throw_speed(0.0), VIEWER_THROW_SPEED, 0.0);
     assert_true(viewer_throw_speed(0.1) < viewer_throw_speed(0.5));
     assert_float_equal(viewer_throw_speed(5.0), VIEWER_THROW_SPEED_MAX, 0.0);
@@ -84,9 +81,8 @@ static rlf_known_def crate(void)
 static const double corners[5][2] = {
     {730.2, 349.3}, {821.2, 353.5}, {821.2, 407.1}, {730.2, 400.2}, {725.2, 341.8}};
 
-static void test_place(void **state)
+TEST_CASE(test_place)
 {
-    (void)state;
     rlf_synthetic_def synthetic = rlf_synthetic_def_default();
     rlf_source *source = NULL;
     rlf_pipeline *pipeline = NULL;
@@ -258,18 +254,16 @@ static void check_run(bool use_gl)
     assert_int_equal(s.index_after_restart, 0);
 }
 
-static void test_window_with_gl(void **state)
+TEST_CASE(test_window_with_gl)
 {
-    (void)state;
     if (!has_display()) {
         skip();
     }
     check_run(true);
 }
 
-static void test_window_with_soft(void **state)
+TEST_CASE(test_window_with_soft)
 {
-    (void)state;
     if (!has_display()) {
         skip();
     }
@@ -313,9 +307,8 @@ static rlf_result keep_scene(void *context, const rlf_known_def *known, int32_t 
 }
 
 /* K, four clicks on the crate's corners, Enter, S: the crate is where it stands. */
-static void test_place_in_window(void **state)
+TEST_CASE(test_place_in_window)
 {
-    (void)state;
     if (!has_display()) {
         skip();
     }
@@ -348,9 +341,8 @@ static void test_place_in_window(void **state)
     rlf_source_destroy(&source);
 }
 
-static void test_quit(void **state)
+TEST_CASE(test_quit)
 {
-    (void)state;
     if (!has_display()) {
         skip();
     }
@@ -359,9 +351,8 @@ static void test_quit(void **state)
     assert_int_equal(s.frames, 5);
 }
 
-static void test_no_display(void **state)
+TEST_CASE(test_no_display)
 {
-    (void)state;
     char display[256];
     bool had_display = getenv("DISPLAY") != NULL;
     (void)snprintf(display, sizeof(display), "%s", had_display ? getenv("DISPLAY") : "");
@@ -398,9 +389,8 @@ static void check_pixel(int x, int y_from_top, const uint8_t expected[3])
 }
 
 /* A picture of 2 x 1 blocks in a square: its rows in order, black above and below. */
-static void test_presenter(void **state)
+TEST_CASE(test_presenter)
 {
-    (void)state;
     if (!has_display()) {
         skip();
     }
@@ -438,9 +428,8 @@ static void test_presenter(void **state)
     glfwTerminate();
 }
 
-static void test_null(void **state)
+TEST_CASE(test_null)
 {
-    (void)state;
     int count = 0;
     const rlf_window_def options = rlf_window_def_default();
     rlf_window_choice choice;
@@ -449,22 +438,4 @@ static void test_null(void **state)
     assert_int_equal(rlf_window_choose(NULL, NULL, NULL, &choice), RLF_ERROR_INVALID);
     assert_int_equal(count, 2);
     rlf_set_assert(NULL, NULL);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_null),
-        cmocka_unit_test(test_pick),
-        cmocka_unit_test(test_ray),
-        cmocka_unit_test(test_throw),
-        cmocka_unit_test(test_place),
-        cmocka_unit_test(test_window_with_gl),
-        cmocka_unit_test(test_window_with_soft),
-        cmocka_unit_test(test_place_in_window),
-        cmocka_unit_test(test_quit),
-        cmocka_unit_test(test_no_display),
-        cmocka_unit_test(test_presenter),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,8 @@
 /* Short replays whose bits the sanitizer build has to have, too: its kernels are the portable ones,
  * and little of it is optimised. A change of method changes them, as in test_replay_hash. */
 #include "golden_hash.h"
+#include "small_world.h"
+#include "hulls.h"
 #include "test.h"
 
 #define FRAMES 8
@@ -13,13 +15,10 @@ static const uint64_t heap = 0x3be1d0738736a68eu;
 
 static const rlf_vec3 TIPS[6] = {{0.06, 0, 0},  {-0.06, 0, 0}, {0, 0.06, 0},
                                  {0, -0.06, 0}, {0, 0, 0.06},  {0, 0, -0.06}};
-static const int32_t FACES[24] = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4,
-                                  2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
-static const rlf_hull OCTAHEDRON = {TIPS, 6, FACES, 8};
+static const rlf_hull OCTAHEDRON = {TIPS, 6, OCTAHEDRON_FACES, 8};
 
-static void first_frames_of_the_room(void **state)
+TEST_CASE(first_frames_of_the_room)
 {
-    (void)state;
     golden_check(&room, 2, FRAMES, 1);
 }
 
@@ -40,45 +39,31 @@ static rlf_body_def one_of_the_heap(int i)
 /* All shapes on one another. */
 static uint64_t pour(int32_t workers)
 {
-    rlf_pool *pool = NULL;
-    assert_int_equal(rlf_pool_create(workers, &pool), RLF_OK);
+    rlf_pool *pool = pool_of(workers);
     rlf_world_def def = rlf_world_def_default();
     def.gravity = rlf_vec3_make(0, 9.81, 0);
     def.pool = pool;
-    rlf_world *world = NULL;
-    assert_int_equal(rlf_world_create(&def, &world), RLF_OK);
+    rlf_world *world = world_of(&def);
     rlf_body_def ground = rlf_body_def_default();
     ground.shape.size = rlf_vec3_make(2, 0.2, 2);
     ground.position = rlf_vec3_make(0, 0.2, 1);
     ground.is_kinematic = true;
-    assert_int_equal(rlf_world_add_body(world, &ground, NULL), RLF_OK);
+    add_body(world, &ground);
     for (int i = 0; i < HEAP; i++) {
         rlf_body_def body = one_of_the_heap(i);
-        assert_int_equal(rlf_world_add_body(world, &body, NULL), RLF_OK);
+        add_body(world, &body);
     }
-    for (int k = 0; k < STEPS; k++) {
-        rlf_world_advance(world, NULL, 1.0 / 60);
-    }
+    advance_steps(world, NULL, STEPS, 1.0 / 60);
     uint64_t hash = rlf_world_hash(world);
     rlf_world_destroy(&world);
     rlf_pool_destroy(&pool);
     return hash;
 }
 
-static void heap_of_all_shapes(void **state)
+TEST_CASE(heap_of_all_shapes)
 {
-    (void)state;
     uint64_t one = pour(1), three = pour(3);
     print_message("heap: 0x%016llxu\n", (unsigned long long)one);
     assert_true(one == three);
     assert_true(one == heap);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(first_frames_of_the_room),
-        cmocka_unit_test(heap_of_all_shapes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

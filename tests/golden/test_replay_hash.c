@@ -13,25 +13,14 @@ static const golden goldens[] = {
     {RLF_PROFILE_THESIS, 0x661dc320eb5b2361u, 0xd84652fb54683851u, 0xc064b44391e1e990u},
 };
 
-static void live_profile_replays_exactly(void **state)
+TEST_CASE(live_profile_replays_exactly)
 {
-    (void)state;
     golden_check(&goldens[0], 1, FRAMES, EVERY);
     golden_check(&goldens[0], 3, FRAMES, EVERY);
 }
 
-static void thesis_profile_replays_exactly(void **state)
+TEST_CASE(thesis_profile_replays_exactly)
 {
-    (void)state;
     golden_check(&goldens[1], 1, FRAMES, EVERY);
     golden_check(&goldens[1], 3, FRAMES, EVERY);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(live_profile_replays_exactly),
-        cmocka_unit_test(thesis_profile_replays_exactly),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

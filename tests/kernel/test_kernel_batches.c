@@ -9,9 +9,8 @@
 
 enum { WIDTH = 41, HEIGHT = 7, COUNT = WIDTH * HEIGHT };
 
-static void windows_are_copies_with_zeros_about(void **state)
+TEST_CASE(windows_are_copies_with_zeros_about)
 {
-    (void)state;
     float plane[COUNT];
     for (int32_t i = 0; i < COUNT; i++) {
         plane[i] = (float)(i + 1);
@@ -40,9 +39,8 @@ static int about_by_definition(const rlf_windows *seen, float inverse, int32_t i
     return about;
 }
 
-static void recall_batch_is_its_definition(void **state)
+TEST_CASE(recall_batch_is_its_definition)
 {
-    (void)state;
     analytic_random r = {8};
     int counts[4] = {0};
     for (int32_t t = 0; t < 400; t++) {
@@ -80,9 +78,8 @@ static int steps_to_depth(const rlf_gap_patch *p, int32_t i, int32_t dx, int32_t
     return RLF_FILL_GAP + 1;
 }
 
-static void gap_patch_finds_the_shortest_gap(void **state)
+TEST_CASE(gap_patch_finds_the_shortest_gap)
 {
-    (void)state;
     static const int32_t along[4][2] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}};
     analytic_random r = {9};
     int counts[5] = {0};
@@ -117,106 +114,88 @@ static void gap_patch_finds_the_shortest_gap(void **state)
     }
 }
 
-/* A missing pixel between a wall at 3 m and, right of it, above and below, one at `right`. */
-static void fill_column(float right, float out[RLF_BATCH], uint8_t kind[RLF_BATCH])
-{
+/* A batch of gaps of one pixel: what is about each, and what it is filled with. */
+static struct fills {
     rlf_windows depth;
     rlf_gap_ends ends;
-    float votes[RLF_BATCH];
-    for (int32_t i = 0; i < RLF_BATCH; i++) {
-        for (int32_t k = 0; k < RLF_WINDOW_SIZE; k++) {
-            depth.at[k][i] = k % 5 < 2 ? 3.0f : right;
-        }
-        depth.at[12][i] = 0.0f;
-        ends.before[i] = 3.0f;
-        ends.after[i] = right;
-        ends.to_before[i] = ends.to_after[i] = 1.0f;
-        ends.most_apart[i] = 0.05f;
-    }
-    rlf_kernel_fill_votes(&depth, &ends, votes);
-    rlf_kernel_fill_batch(&depth, &ends, votes, out, kind);
+    float votes[RLF_BATCH], out[RLF_BATCH];
+    uint8_t kind[RLF_BATCH];
+} fills;
+
+static void set_ends(int32_t i, float before, float after)
+{
+    fills.depth.at[12][i] = 0.0f;
+    fills.ends.before[i] = before;
+    fills.ends.after[i] = after;
+    fills.ends.to_before[i] = fills.ends.to_after[i] = 1.0f;
+    fills.ends.most_apart[i] = 0.05f;
 }
 
-static void fill_batch_continues_the_side_with_more_votes(void **state)
+static void fill(void)
 {
-    (void)state;
-    float out[RLF_BATCH];
-    uint8_t kind[RLF_BATCH];
-    fill_column(2.0f, out, kind);
-    assert_int_equal(kind[8], RLF_FILL_NEAR);
-    assert_true(out[8] == 2.0f);
-    fill_column(4.0f, out, kind);
-    assert_int_equal(kind[8], RLF_FILL_FAR);
-    assert_true(out[8] == 4.0f);
-    fill_column(3.03f, out, kind); /* one slanted surface */
-    assert_int_equal(kind[8], RLF_FILL_BETWEEN);
-    double off = out[8] - 2.0 / (1.0 / 3.0 + 1.0 / 3.03);
+    rlf_kernel_fill_votes(&fills.depth, &fills.ends, fills.votes);
+    rlf_kernel_fill_batch(&fills.depth, &fills.ends, fills.votes, fills.out, fills.kind);
+}
+
+static void check_all_near(float z)
+{
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        assert_int_equal(fills.kind[i], RLF_FILL_NEAR);
+        assert_true(fills.out[i] == z);
+    }
+}
+
+/* A missing pixel between a wall at 3 m and, right of it, above and below, one at `right`. */
+static void fill_column(float right)
+{
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        for (int32_t k = 0; k < RLF_WINDOW_SIZE; k++) {
+            fills.depth.at[k][i] = k % 5 < 2 ? 3.0f : right;
+        }
+        set_ends(i, 3.0f, right);
+    }
+    fill();
+}
+
+TEST_CASE(fill_batch_continues_the_side_with_more_votes)
+{
+    fill_column(2.0f);
+    assert_int_equal(fills.kind[8], RLF_FILL_NEAR);
+    assert_true(fills.out[8] == 2.0f);
+    fill_column(4.0f);
+    assert_int_equal(fills.kind[8], RLF_FILL_FAR);
+    assert_true(fills.out[8] == 4.0f);
+    fill_column(3.03f); /* one slanted surface */
+    assert_int_equal(fills.kind[8], RLF_FILL_BETWEEN);
+    double off = fills.out[8] - 2.0 / (1.0 / 3.0 + 1.0 / 3.03);
     assert_true(off < 1e-6 && off > -1e-6);
 }
 
 /* Columns that are missing between one at `left` and, as wide, one at `right`. */
-static void fill_batch_gives_a_tie_to_the_nearer_side(void **state)
+TEST_CASE(fill_batch_gives_a_tie_to_the_nearer_side)
 {
-    (void)state;
-    rlf_windows depth;
-    rlf_gap_ends ends;
-    float votes[RLF_BATCH], out[RLF_BATCH];
-    uint8_t kind[RLF_BATCH];
     for (int32_t i = 0; i < RLF_BATCH; i++) {
         float left = i % 2 == 0 ? 2.0f : 4.0f, right = 6.0f - left;
         for (int32_t k = 0; k < RLF_WINDOW_SIZE; k++) {
-            depth.at[k][i] = k % 5 < 2 ? left : k % 5 > 2 ? right : 0.0f;
+            fills.depth.at[k][i] = k % 5 < 2 ? left : k % 5 > 2 ? right : 0.0f;
         }
-        ends.before[i] = left;
-        ends.after[i] = right;
-        ends.to_before[i] = ends.to_after[i] = 1.0f;
-        ends.most_apart[i] = 0.05f;
+        set_ends(i, left, right);
     }
-    rlf_kernel_fill_votes(&depth, &ends, votes);
-    rlf_kernel_fill_batch(&depth, &ends, votes, out, kind);
-    for (int32_t i = 0; i < RLF_BATCH; i++) {
-        assert_int_equal(kind[i], RLF_FILL_NEAR);
-        assert_true(out[i] == 2.0f);
-    }
+    fill();
+    check_all_near(2.0f);
 }
 
 /* A box's front at 2 m before a wall at 4 m, and another one's, at 2.5 m or 1.6 m, in the rows
  * above that the hole is in: the front goes on as it is. */
-static void fill_batch_leaves_a_third_surface_out(void **state)
+TEST_CASE(fill_batch_leaves_a_third_surface_out)
 {
-    (void)state;
-    rlf_windows depth;
-    rlf_gap_ends ends;
-    float votes[RLF_BATCH], out[RLF_BATCH];
-    uint8_t kind[RLF_BATCH];
     for (int32_t i = 0; i < RLF_BATCH; i++) {
+        float third = i % 2 == 0 ? 2.5f : 1.6f;
         for (int32_t k = 0; k < RLF_WINDOW_SIZE; k++) {
-            float third = i % 2 == 0 ? 2.5f : 1.6f;
-            depth.at[k][i] = k < 5 ? third : k % 5 < 3 ? 2.0f : 4.0f;
+            fills.depth.at[k][i] = k < 5 ? third : k % 5 < 3 ? 2.0f : 4.0f;
         }
-        depth.at[12][i] = 0.0f;
-        ends.before[i] = 2.0f;
-        ends.after[i] = 4.0f;
-        ends.to_before[i] = ends.to_after[i] = 1.0f;
-        ends.most_apart[i] = 0.05f;
+        set_ends(i, 2.0f, 4.0f);
     }
-    rlf_kernel_fill_votes(&depth, &ends, votes);
-    rlf_kernel_fill_batch(&depth, &ends, votes, out, kind);
-    for (int32_t i = 0; i < RLF_BATCH; i++) {
-        assert_int_equal(kind[i], RLF_FILL_NEAR);
-        assert_true(out[i] == 2.0f);
-    }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(windows_are_copies_with_zeros_about),
-        cmocka_unit_test(recall_batch_is_its_definition),
-        cmocka_unit_test(gap_patch_finds_the_shortest_gap),
-        cmocka_unit_test(fill_batch_continues_the_side_with_more_votes),
-        cmocka_unit_test(fill_batch_gives_a_tie_to_the_nearer_side),
-        cmocka_unit_test(fill_batch_leaves_a_third_surface_out),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    fill();
+    check_all_near(2.0f);
 }

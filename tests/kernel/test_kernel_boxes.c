@@ -25,9 +25,8 @@ static bool meets(const float *ends, int32_t k, const float box[6])
 }
 
 /* Any range of them, with boxes that touch and one that is no number. */
-static void boxes_are_found_as_one_by_one(void **state)
+TEST_CASE(boxes_are_found_as_one_by_one)
 {
-    (void)state;
     analytic_random r = {5};
     int32_t sum = 0;
     for (int32_t run = 0; run < 400; run++) {
@@ -70,9 +69,8 @@ static float square_distance(const float box[6], const float p[3])
 }
 
 /* Points inside, beside and at corners of boxes; none at all is far. */
-static void points_are_as_far_from_boxes_as_one_by_one(void **state)
+TEST_CASE(points_are_as_far_from_boxes_as_one_by_one)
 {
-    (void)state;
     analytic_random r = {7};
     for (int32_t run = 0; run < 400; run++) {
         float boxes[BOXES][6], at[3][RLF_BOX_LANES], distance2[RLF_BOX_LANES];
@@ -95,13 +93,4 @@ static void points_are_as_far_from_boxes_as_one_by_one(void **state)
             assert_true(distance2[k] == least);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(boxes_are_found_as_one_by_one),
-        cmocka_unit_test(points_are_as_far_from_boxes_as_one_by_one),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

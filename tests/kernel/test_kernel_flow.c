@@ -14,9 +14,8 @@ static bool near_enough(float a, float b, float tolerance)
 }
 
 /* Straight from knot to knot, then the mean of 3x3 pixels: of squares, over one plane body. */
-static void spread_row_is_its_definition(void **state)
+TEST_CASE(spread_row_is_its_definition)
 {
-    (void)state;
     enum { KNOTS = 12, WIDE = 2 * KNOTS };
     analytic_random r = {7};
     for (int t = 0; t < 50; t++) {
@@ -72,9 +71,8 @@ static void spread_row_is_its_definition(void **state)
 }
 
 /* Cells of two limbs, one that rests and one that is not known. */
-static void flow_row_is_its_definition(void **state)
+TEST_CASE(flow_row_is_its_definition)
 {
-    (void)state;
     analytic_random r = {3};
     for (int32_t count = 1; count <= LONGEST; count++) {
         float depth[LONGEST], ray[2][LONGEST], out[3][LONGEST];
@@ -121,9 +119,8 @@ static void flow_row_is_its_definition(void **state)
 
 /* Before a level wall, seen a frame ago from 3 cm nearer; the sample to the right leaves the view,
  * and one pixel saw nothing that moves. */
-static void flow_residuals_are_distances(void **state)
+TEST_CASE(flow_residuals_are_distances)
 {
-    (void)state;
     enum { WIDE = 20, HIGH = 3, COUNT = 20 };
     float depth[WIDE * HIGH], ray_x[WIDE * HIGH], ray_y[WIDE * HIGH], seen[WIDE * HIGH];
     uint8_t reason[WIDE * HIGH], front[WIDE * HIGH];
@@ -158,9 +155,8 @@ static void flow_residuals_are_distances(void **state)
 }
 
 /* What chords of a region are cut in, of short and long rows. */
-static void knots_are_their_definition(void **state)
+TEST_CASE(knots_are_their_definition)
 {
-    (void)state;
     enum { LENGTH = 70, LABEL = 9 };
     analytic_random r = {29};
     float raw[2 * LENGTH], depth[2 * LENGTH], front[2 * LENGTH], inverse[LENGTH], knot[LENGTH];
@@ -185,15 +181,4 @@ static void knots_are_their_definition(void **state)
             assert_true(inverse[i] == (raw[i] > 0.0f ? 1.0f / raw[i] : 0.0f));
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(spread_row_is_its_definition),
-        cmocka_unit_test(flow_row_is_its_definition),
-        cmocka_unit_test(knots_are_their_definition),
-        cmocka_unit_test(flow_residuals_are_distances),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

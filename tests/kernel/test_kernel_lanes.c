@@ -187,9 +187,8 @@ static void assert_same_speeds(const scene *a, const scene *b)
     }
 }
 
-static void a_pass_is_that_of_each_lane(void **state)
+TEST_CASE(a_pass_is_that_of_each_lane)
 {
-    (void)state;
     analytic_random r = {1};
     for (int32_t run = 0; run < 200; run++) {
         scene ours, plain;
@@ -207,9 +206,8 @@ static void a_pass_is_that_of_each_lane(void **state)
 }
 
 /* Two batches of different lengths, the second one's bodies behind the first one's. */
-static void two_are_solved_as_each_alone(void **state)
+TEST_CASE(two_are_solved_as_each_alone)
 {
-    (void)state;
     analytic_random r = {4};
     for (int32_t run = 0; run < 200; run++) {
         scene alone[2], both[2];
@@ -241,9 +239,8 @@ static void two_are_solved_as_each_alone(void **state)
 }
 
 /* A point of the weighed mass changes its speed by 1 / mass for a unit impulse. */
-static void mass_is_impulse_by_speed(void **state)
+TEST_CASE(mass_is_impulse_by_speed)
 {
-    (void)state;
     analytic_random r = {2};
     for (int32_t run = 0; run < 50; run++) {
         scene s;
@@ -263,9 +260,8 @@ static void mass_is_impulse_by_speed(void **state)
 }
 
 /* Impulses kept from the last substep, and passes until nothing is in excess: no point closes. */
-static void passes_settle(void **state)
+TEST_CASE(passes_settle)
 {
-    (void)state;
     analytic_random r = {3};
     for (int32_t run = 0; run < 50; run++) {
         scene s;
@@ -284,15 +280,4 @@ static void passes_settle(void **state)
             }
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_pass_is_that_of_each_lane),
-        cmocka_unit_test(two_are_solved_as_each_alone),
-        cmocka_unit_test(mass_is_impulse_by_speed),
-        cmocka_unit_test(passes_settle),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

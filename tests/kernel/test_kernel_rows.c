@@ -17,9 +17,8 @@ static void random_depth(analytic_random *r, float *depth, int32_t count)
     }
 }
 
-static void depth_row_is_units_and_reasons(void **state)
+TEST_CASE(depth_row_is_units_and_reasons)
 {
-    (void)state;
     analytic_random r = {1};
     const rlf_kernel_range range = {0.5f, 4.5f, 0.001f};
     for (int32_t count = 1; count <= LONGEST; count++) {
@@ -72,9 +71,8 @@ static bool kept_by_definition(float rows[3][LONGEST + 2], int32_t i)
     return close >= 3 || pairs >= 2;
 }
 
-static void flying_row_is_its_definition(void **state)
+TEST_CASE(flying_row_is_its_definition)
 {
-    (void)state;
     analytic_random r = {2};
     int removed = 0, kept = 0;
     for (int32_t count = 1; count <= LONGEST; count++) {
@@ -117,9 +115,8 @@ static bool half_way_by_definition(const float five[5])
 }
 
 /* Rows of random depths, with two pixels and two rows around. */
-static void half_way_row_is_its_definition(void **state)
+TEST_CASE(half_way_row_is_its_definition)
 {
-    (void)state;
     enum { AT = 2 };
     analytic_random r = {21};
     int removed = 0, kept = 0;
@@ -152,9 +149,8 @@ static void half_way_row_is_its_definition(void **state)
 }
 
 /* A column of mixed pixels between two levels goes; a plane as steep as its steps stays. */
-static void a_column_half_way_is_flying(void **state)
+TEST_CASE(a_column_half_way_is_flying)
 {
-    (void)state;
     const float edge[7] = {2.8f, 2.8f, 2.8f, 2.75f, 2.7f, 2.7f, 2.7f};
     const float steep[7] = {2.9f, 2.85f, 2.8f, 2.75f, 2.7f, 2.65f, 2.6f};
     const float *const edges[5] = {edge, edge, edge, edge, edge};
@@ -175,9 +171,8 @@ static void a_column_half_way_is_flying(void **state)
     }
 }
 
-static void majority_row_is_its_definition(void **state)
+TEST_CASE(majority_row_is_its_definition)
 {
-    (void)state;
     analytic_random r = {3};
     for (int32_t count = 1; count <= LONGEST; count++) {
         uint8_t seen[3][LONGEST], out[LONGEST];
@@ -208,9 +203,8 @@ static void majority_row_is_its_definition(void **state)
 }
 
 /* The model of one pixel, told as a story. */
-static void background_row_follows_the_evidence(void **state)
+TEST_CASE(background_row_follows_the_evidence)
 {
-    (void)state;
     rlf_kernel_background params = {{0.0015f, -0.0005f, 0.0003f}, 6.0f, 0.02f, true};
     float mean = 0.0f, deviation = 0.0f;
     uint8_t weight = 0, beyond = 0, seen = 9;
@@ -251,9 +245,8 @@ static void background_row_follows_the_evidence(void **state)
 }
 
 /* Tiles write their own pixels only, whatever their size. */
-static void plane_tile_stays_in_its_tile(void **state)
+TEST_CASE(plane_tile_stays_in_its_tile)
 {
-    (void)state;
     enum { W = 75, H = 71 };
     static float depth[W * H], ray_x[W * H], ray_y[W * H], out[3][W * H];
     for (int i = 0; i < W * H; i++) {
@@ -284,9 +277,8 @@ static void plane_tile_stays_in_its_tile(void **state)
 
 /* One pixel by itself: what is off the mean by more than the gate begins again, what is not seen in
  * front any more is forgotten as soon as something farther is seen. */
-static void still_row_is_its_definition(void **state)
+TEST_CASE(still_row_is_its_definition)
 {
-    (void)state;
     enum { COUNT = 200 };
     analytic_random r = {17};
     const rlf_kernel_still p = {{0.0015, -0.0005, 0.0003}, 3.0, 0.01f, 5000, 33};
@@ -312,9 +304,8 @@ static void still_row_is_its_definition(void **state)
     }
 }
 
-static void chord_sums_are_their_definition(void **state)
+TEST_CASE(chord_sums_are_their_definition)
 {
-    (void)state;
     analytic_random r = {13};
     const rlf_kernel_chord_noise noise = {1e-5f, {2e-5f, 3e-5f}, 0.006f, 0.5f, 2.0f};
     for (int32_t count = 1; count <= RLF_CHORD_RUN; count++) {
@@ -338,9 +329,8 @@ static void chord_sums_are_their_definition(void **state)
     }
 }
 
-static void chord_solid_is_its_definition(void **state)
+TEST_CASE(chord_solid_is_its_definition)
 {
-    (void)state;
     const rlf_kernel_chord_solid solid = {0.7f, 0.5f, 0.001f, 0.02f};
     for (int32_t count = 1; count <= RLF_CHORD_RUN; count++) {
         const int32_t step = 1 + count % 2;
@@ -359,9 +349,8 @@ static void chord_solid_is_its_definition(void **state)
     }
 }
 
-static void thickness_ends_at_the_background(void **state)
+TEST_CASE(thickness_ends_at_the_background)
 {
-    (void)state;
     const rlf_kernel_thickness limits = {0.02f, 0.5f};
     const float depth[5] = {2.0f, 2.0f, 2.0f, 2.0f, 2.0f};
     const float behind[5] = {0.0f, 3.0f, 2.125f, 1.9f, 3.0f};
@@ -388,9 +377,8 @@ static void bend_of_faces(int32_t crease, int32_t end, uint8_t bend[16])
     rlf_kernel_bend_row(rows, 16, bend);
 }
 
-static void normals_bend_within_two_pixels_of_a_crease(void **state)
+TEST_CASE(normals_bend_within_two_pixels_of_a_crease)
 {
-    (void)state;
     uint8_t bend[16];
     bend_of_faces(8, 16, bend);
     for (int32_t i = 0; i < 16; i++) {
@@ -398,9 +386,8 @@ static void normals_bend_within_two_pixels_of_a_crease(void **state)
     }
 }
 
-static void a_face_of_two_pixels_is_not_all_crease(void **state)
+TEST_CASE(a_face_of_two_pixels_is_not_all_crease)
 {
-    (void)state;
     uint8_t bend[16];
     bend_of_faces(8, 10, bend);
     assert_int_equal(bend[7], RLF_BEND_ACROSS);
@@ -415,9 +402,8 @@ static void a_face_of_two_pixels_is_not_all_crease(void **state)
 }
 
 /* In two runs, as a region's rows are. */
-static void region_rows_are_sums_and_extents(void **state)
+TEST_CASE(region_rows_are_sums_and_extents)
 {
-    (void)state;
     enum { SUMS = 9 };
     analytic_random r = {2};
     for (int32_t count = 1; count <= LONGEST; count++) {
@@ -469,25 +455,4 @@ static void region_rows_are_sums_and_extents(void **state)
             assert_true(fabs(low[j] - least[j]) < 1e-12 && fabs(high[j] - most[j]) < 1e-12);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(depth_row_is_units_and_reasons),
-        cmocka_unit_test(flying_row_is_its_definition),
-        cmocka_unit_test(half_way_row_is_its_definition),
-        cmocka_unit_test(a_column_half_way_is_flying),
-        cmocka_unit_test(majority_row_is_its_definition),
-        cmocka_unit_test(background_row_follows_the_evidence),
-        cmocka_unit_test(still_row_is_its_definition),
-        cmocka_unit_test(plane_tile_stays_in_its_tile),
-        cmocka_unit_test(chord_sums_are_their_definition),
-        cmocka_unit_test(chord_solid_is_its_definition),
-        cmocka_unit_test(thickness_ends_at_the_background),
-        cmocka_unit_test(normals_bend_within_two_pixels_of_a_crease),
-        cmocka_unit_test(a_face_of_two_pixels_is_not_all_crease),
-        cmocka_unit_test(region_rows_are_sums_and_extents),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -105,9 +105,8 @@ static int32_t check_edges(const rlf_sat_axes *axes, int32_t lane, const box *a,
     return count;
 }
 
-static void axes_are_those_of_the_corners(void **state)
+TEST_CASE(axes_are_those_of_the_corners)
 {
-    (void)state;
     analytic_random r = {9};
     int32_t count = 0;
     for (int32_t run = 0; run < 500; run++) {
@@ -126,12 +125,4 @@ static void axes_are_those_of_the_corners(void **state)
         }
     }
     assert_true(count > 100);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(axes_are_those_of_the_corners),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

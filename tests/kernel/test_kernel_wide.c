@@ -10,9 +10,8 @@ enum { LONGEST = 70, WHOLE = 2 * LONGEST };
 
 static const rlf_kernel_noise noise = {0.001f, 0.0f, 0.0015f};
 
-static void halve_row_is_its_definition(void **state)
+TEST_CASE(halve_row_is_its_definition)
 {
-    (void)state;
     analytic_random r = {1};
     for (int32_t count = 1; count <= LONGEST; count++) {
         float rows[2][WHOLE], out[LONGEST + 1];
@@ -95,9 +94,8 @@ static void speak(strip *s, int32_t half, float lasting)
 
 /* Noise of 7 mm at 2 m makes 2 degrees: a normal that is 4 off takes the plane, one that is 30 off
  * has seen something else. */
-static void a_plane_speaks_for_what_noise_explains(void **state)
+TEST_CASE(a_plane_speaks_for_what_noise_explains)
 {
-    (void)state;
     static strip s;
     const double turned[2] = {4.0, 30.0};
     for (int32_t half = 1; half <= LONGEST; half++) {
@@ -117,9 +115,8 @@ static void a_plane_speaks_for_what_noise_explains(void **state)
 }
 
 /* A mean of 25 frames makes 0.4 degrees of them, unless the noise lasts. */
-static void what_averaging_leaves_decides(void **state)
+TEST_CASE(what_averaging_leaves_decides)
 {
-    (void)state;
     static strip s;
     const double angle = 4.0 * RLF_PI / 180.0 + rlf_atan2(0.2, 1.0);
     const rlf_vec3 own = rlf_vec3_make(rlf_sin(angle), 0.0, -rlf_cos(angle));
@@ -137,9 +134,8 @@ static void what_averaging_leaves_decides(void **state)
     }
 }
 
-static void halve_frames_takes_the_fewest(void **state)
+TEST_CASE(halve_frames_takes_the_fewest)
 {
-    (void)state;
     const float upper[6] = {3.0f, 4.0f, 9.0f, -2.0f, 7.0f, 7.0f};
     const float lower[6] = {8.0f, 5.0f, 9.0f, 9.0f, 0.0f, 7.0f};
     float out[4] = {0.0f, 0.0f, 0.0f, -7.0f};
@@ -148,9 +144,8 @@ static void halve_frames_takes_the_fewest(void **state)
     assert_memory_equal(out, wanted, sizeof wanted);
 }
 
-static void where_there_is_no_plane_nothing_changes(void **state)
+TEST_CASE(where_there_is_no_plane_nothing_changes)
 {
-    (void)state;
     static strip s;
     set_strip(&s, 40, rlf_vec3_make(0.0, 0.0, -1.0));
     memset(s.plane, 0, sizeof s.plane);
@@ -158,16 +153,4 @@ static void where_there_is_no_plane_nothing_changes(void **state)
     for (int32_t i = 0; i < 80; i++) {
         assert_true(s.normal[2][i] == -1.0f && fabsf(s.smooth[i] - s.depth[i]) > 0.001f);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(halve_row_is_its_definition),
-        cmocka_unit_test(halve_frames_takes_the_fewest),
-        cmocka_unit_test(what_averaging_leaves_decides),
-        cmocka_unit_test(a_plane_speaks_for_what_noise_explains),
-        cmocka_unit_test(where_there_is_no_plane_nothing_changes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

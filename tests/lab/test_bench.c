@@ -1,6 +1,7 @@
 /* What `relief-lab bench` stands on: its rooms, its floor, its counting of memory, its files. */
 
 #include "bench/bench.h"
+#include "created.h"
 #include "test.h"
 
 #include <math.h>
@@ -11,8 +12,7 @@ static const rlf_surface *surface_after(rlf_source *source, rlf_reconstruct *sta
 {
     const rlf_surface *surface = NULL;
     for (int k = 0; k < frames; k++) {
-        rlf_frame frame;
-        assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+        rlf_frame frame = frame_of(source);
         assert_int_equal(rlf_reconstruct_process(stage, &frame, &surface), RLF_OK);
     }
     return surface;
@@ -37,9 +37,8 @@ static int32_t found_regions(int32_t width, int32_t height, int32_t people, int3
     return count;
 }
 
-static void rooms_have_the_regions_they_were_asked_for(void **state)
+TEST_CASE(rooms_have_the_regions_they_were_asked_for)
 {
-    (void)state;
     assert_int_equal(found_regions(320, 240, 0, 0), 0);
     assert_int_equal(found_regions(320, 240, 0, 4), 4);
     assert_int_equal(found_regions(512, 424, 0, 64), 64);
@@ -56,7 +55,7 @@ static int32_t people_pixels(int32_t people)
     int32_t count = 0;
     assert_int_equal(bench_source_create(&room, &source), RLF_OK);
     for (int k = 0; k <= BENCH_EMPTY_FRAMES; k++) {
-        assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+        frame = frame_of(source);
     }
     for (int i = 0; i < 120 * 320; i++) { /* rows before the floor comes as near */
         int32_t mm = frame.depth_u16[i];  /* beside an outline, on both sides, it is 0 */
@@ -66,9 +65,8 @@ static int32_t people_pixels(int32_t people)
     return count;
 }
 
-static void people_side_by_side_fill_as_many_pixels(void **state)
+TEST_CASE(people_side_by_side_fill_as_many_pixels)
 {
-    (void)state;
     int32_t two = people_pixels(2), four = people_pixels(4), eight = people_pixels(8);
     assert_true(two > 10000);
     assert_in_range(100 * four / two, 85, 105); /* near ones are seen under a wider angle */
@@ -76,16 +74,15 @@ static void people_side_by_side_fill_as_many_pixels(void **state)
 }
 
 /* The middle ray meets wall, then plate; the noise is the rig's. */
-static void rooms_are_where_they_should_be(void **state)
+TEST_CASE(rooms_are_where_they_should_be)
 {
-    (void)state;
     const bench_room room = {101, 83, 0, 1, false};
     rlf_source *source = NULL;
     rlf_frame frame;
     assert_int_equal(bench_source_create(&room, &source), RLF_OK);
     double sum = 0, square = 0;
     for (int k = 0; k < BENCH_EMPTY_FRAMES; k++) {
-        assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+        frame = frame_of(source);
         for (int i = 0; i < 30 * 101; i++) { /* rows above the floor */
             double error = frame.depth_u16[i] * 1e-3 - 3.2;
             sum += error / (BENCH_EMPTY_FRAMES * 30 * 101);
@@ -95,16 +92,15 @@ static void rooms_are_where_they_should_be(void **state)
     double sigma = rlf_depth_noise_sigma(&rlf_source_get_info(source)->rig.noise, 3.2);
     assert_true(fabs(sum) < 3e-4);
     assert_true(fabs(sqrt(square) / sigma - 1.0) < 0.05);
-    assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+    frame = frame_of(source);
     double plate = frame.depth_u16[30 * 101 + 40] * 1e-3;
     assert_true(fabs(plate - 2.6) < 0.02);
     rlf_source_destroy(&source);
 }
 
 /* Another set of buffers each time, so that none is in a cache when its turn comes. */
-static void floor_goes_round_more_memory_than_a_cache_holds(void **state)
+TEST_CASE(floor_goes_round_more_memory_than_a_cache_holds)
 {
-    (void)state;
     bench_floor f;
     assert_int_equal(bench_floor_open(512, 424, &f), RLF_OK);
     size_t bytes = f.pixels * (BENCH_FLOOR_READ + BENCH_FLOOR_WRITTEN);
@@ -120,9 +116,8 @@ static void floor_goes_round_more_memory_than_a_cache_holds(void **state)
     bench_floor_close(&f);
 }
 
-static void table_finds_rows_and_files_compare(void **state)
+TEST_CASE(table_finds_rows_and_files_compare)
 {
-    (void)state;
     static bench_table old, now;
     bench_add(&old, "live_1", "surface", "ms", 12.0, 13.0, 20.0);
     bench_add(&now, "live_1", "surface", "ms", 6.0, 7.0, NAN);
@@ -140,9 +135,8 @@ static void table_finds_rows_and_files_compare(void **state)
 }
 
 /* Last of all tests: it changes the allocator for good. */
-static void memory_is_counted_to_the_byte(void **state)
+TEST_CASE(memory_is_counted_to_the_byte)
 {
-    (void)state;
     bench_memory_start();
     int64_t before = bench_memory_now();
     void *a = rlf_alloc(6400), *b = rlf_alloc(1);
@@ -153,17 +147,4 @@ static void memory_is_counted_to_the_byte(void **state)
     assert_int_equal(bench_memory_now() - before, 64);
     rlf_free(b);
     assert_int_equal(bench_memory_now(), before);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rooms_have_the_regions_they_were_asked_for),
-        cmocka_unit_test(people_side_by_side_fill_as_many_pixels),
-        cmocka_unit_test(rooms_are_where_they_should_be),
-        cmocka_unit_test(floor_goes_round_more_memory_than_a_cache_holds),
-        cmocka_unit_test(table_finds_rows_and_files_compare),
-        cmocka_unit_test(memory_is_counted_to_the_byte),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -59,9 +59,8 @@ static void make_still(still *s, bench_clip *clip, rlf_surface *surface)
                              .region_count = 2};
 }
 
-static void perfect_surface_is_perfect(void **state)
+TEST_CASE(perfect_surface_is_perfect)
 {
-    (void)state;
     static still s;
     bench_clip clip;
     rlf_surface surface;
@@ -76,9 +75,8 @@ static void perfect_surface_is_perfect(void **state)
     assert_true(isnan(q.holes_filled)); /* there is none */
 }
 
-static void errors_fall_into_their_place(void **state)
+TEST_CASE(errors_fall_into_their_place)
 {
-    (void)state;
     static still s;
     bench_clip clip;
     rlf_surface surface;
@@ -107,9 +105,8 @@ static void errors_fall_into_their_place(void **state)
     assert_true(fabs(q.precision - 100.0 * (COUNT / 2 - 1) / (COUNT / 2)) < 1e-9);
 }
 
-static void clip_is_written_as_it_is(void **state)
+TEST_CASE_WITH(clip_is_written_as_it_is, test_folder_make, test_folder_remove)
 {
-    (void)state;
     static still s;
     bench_clip clip;
     rlf_surface surface;
@@ -131,9 +128,8 @@ static void clip_is_written_as_it_is(void **state)
     assert_int_equal(bench_clip_write(&clip, test_path("no/folder/clip.raw")), RLF_ERROR_IO);
 }
 
-static void results_stand_beside_ours(void **state)
+TEST_CASE_WITH(results_stand_beside_ours, test_folder_make, test_folder_remove)
 {
-    (void)state;
     static bench_table table;
     test_write_text("results.txt",
                     "# a comment\n"
@@ -166,17 +162,4 @@ static void results_stand_beside_ours(void **state)
     o.peers_path = test_path("nothing.txt");
     assert_int_equal(bench_peers_check(o.peers_path), RLF_ERROR_FORMAT);
     assert_int_equal(bench_peers_run(&o, &table, &json), RLF_ERROR_FORMAT);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(perfect_surface_is_perfect),
-        cmocka_unit_test(errors_fall_into_their_place),
-        cmocka_unit_test_setup_teardown(clip_is_written_as_it_is, test_folder_make,
-                                        test_folder_remove),
-        cmocka_unit_test_setup_teardown(results_stand_beside_ours, test_folder_make,
-                                        test_folder_remove),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,27 +3,22 @@
 #include "calibrate/calibrate.h"
 #include "eval/analytic.h"
 #include "relief/io.h"
+#include "test.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #define FOLDER "calibrate_pictures"
 #define PIXELS (320 * 240)
 
-static bool has_opencv(void)
+static void need_opencv(void)
 {
     if (opencv_get() == NULL) {
         print_message("SKIPPED: %s\n", rlf_error_text());
-        return false;
+        skip();
     }
-    return true;
 }
 
 static void write_gray(const char *folder, int number, const uint8_t *data, int32_t width,
@@ -105,12 +100,9 @@ static void assert_refused(const calibrate_options *o, const char *word)
 static calibrate_model pairs_model; /* what test_pairs found */
 
 /* Both lenses and the motion come out as they are. */
-static void test_pairs(void **state)
+TEST_CASE(test_pairs)
 {
-    (void)state;
-    if (!has_opencv()) {
-        skip();
-    }
+    need_opencv();
     const rlf_rig rig = board_rig();
     calibration c;
     write_pairs();
@@ -145,12 +137,9 @@ static void mirror(const uint8_t *in, uint8_t *out)
 }
 
 /* A double, a mirrored picture, one cut off: each is left out with its reason, the rest is used. */
-static void test_bad_views_are_named(void **state)
+TEST_CASE(test_bad_views_are_named)
 {
-    (void)state;
-    if (!has_opencv()) {
-        skip();
-    }
+    need_opencv();
     calibration c;
     static uint8_t picture[PIXELS];
     write_pairs();
@@ -191,12 +180,9 @@ static void blur(const uint8_t *in, uint8_t *out, int radius)
     }
 }
 
-static void test_refusals(void **state)
+TEST_CASE(test_refusals)
 {
-    (void)state;
-    if (!has_opencv()) {
-        skip();
-    }
+    need_opencv();
     static uint8_t picture[PIXELS];
     calibrate_options o = folder_options(false);
     write_pairs();
@@ -224,12 +210,9 @@ static void test_refusals(void **state)
     assert_refused(&o, "not a folder");
 }
 
-static void test_blurred(void **state)
+TEST_CASE(test_blurred)
 {
-    (void)state;
-    if (!has_opencv()) {
-        skip();
-    }
+    need_opencv();
     static uint8_t picture[PIXELS];
     calibrate_sight sight = {.count = 0};
     blur(drawn[0][4], picture, 6);
@@ -287,9 +270,8 @@ static calibrate_model wrong_model(void)
 }
 
 /* Exact corners give the cameras back exactly, from a start that is off; without OpenCV. */
-static void test_solve(void **state)
+TEST_CASE(test_solve)
 {
-    (void)state;
     const rlf_rig rig = board_rig();
     calibrate_views views;
     calibrate_model model = wrong_model();
@@ -306,9 +288,8 @@ static void test_solve(void **state)
 }
 
 /* The uncertainty that is told is the scatter over trials. */
-static void test_deviation(void **state)
+TEST_CASE(test_deviation)
 {
-    (void)state;
     const rlf_rig rig = board_rig();
     double squares = 0.0, told = 0.0;
     for (int trial = 0; trial < 30; trial++) {
@@ -326,9 +307,8 @@ static void test_deviation(void **state)
     assert_true(ratio > 0.7 && ratio < 1.4);
 }
 
-static void test_flat_poses_are_refused(void **state)
+TEST_CASE(test_flat_poses_are_refused)
 {
-    (void)state;
     calibrate_views views;
     calibrate_model model = wrong_model();
     calibrate_fit fit;
@@ -339,9 +319,8 @@ static void test_flat_poses_are_refused(void **state)
     calibrate_views_destroy(&views);
 }
 
-static void test_one_part_is_refused(void **state)
+TEST_CASE(test_one_part_is_refused)
 {
-    (void)state;
     calibrate_views views;
     calibrate_model model = wrong_model();
     calibrate_fit fit;
@@ -390,12 +369,9 @@ static void record_clip(double offset_m)
 }
 
 /* From a recording: still poses are picked, colour by corners, depth by the board's outline. */
-static void test_source(void **state)
+TEST_CASE(test_source)
 {
-    (void)state;
-    if (!has_opencv()) {
-        skip();
-    }
+    need_opencv();
     const rlf_rig truth = board_rig();
     record_clip(0.0);
     const calibrate_options o = {
@@ -404,23 +380,18 @@ static void test_source(void **state)
     assert_int_equal(calibrate_views_create(&o.board, &c.views), RLF_OK);
     assert_int_equal(calibrate_source(&o, &c), RLF_OK);
     assert_in_range(c.views.count, 8, BOARD_VIEWS);
-    assert_true(fabs(c.model.camera[1].fx - truth.color.fx) < 3.0);
+    assert_less(fabs(c.model.camera[1].fx - truth.color.fx), 3.0);
     const double off = rlf_length(rlf_sub(c.model.T_second_first.p, truth.T_color_depth.p));
-    print_message("outline: the camera's place is %.2f mm off, told %.2f\n", 1e3 * off,
-                  1e3 * calibrate_deviation(&c.fit, CALIBRATE_MOTION + 3));
-    assert_true(off < 0.004);
+    assert_less(off, 0.004);
     assert_true(c.is_thesis_way);
     calibration_free(&c);
 }
 
 /* Depth pictures beside the infrared ones give the depth offset; the cameras come out as in
  * test_pairs to the last bit. */
-static void test_depth_offset(void **state)
+TEST_CASE(test_depth_offset)
 {
-    (void)state;
-    if (!has_opencv()) {
-        skip();
-    }
+    need_opencv();
     calibration c;
     static uint16_t depth[PIXELS];
     write_pairs();
@@ -437,9 +408,8 @@ static void test_depth_offset(void **state)
     assert_int_equal(run_folders(&o, &c), RLF_OK);
     assert_memory_equal(&c.model, &pairs_model, sizeof(c.model));
     assert_int_equal(c.offset_boards, BOARD_VIEWS);
-    print_message("offset %.3f +- %.3f mm\n", 1e3 * c.offset_m, 1e3 * c.offset_deviation_m);
-    assert_true(fabs(c.offset_m - 0.024) < 0.002);
-    assert_true(fabs(c.offset_m - 0.024) < 3.0 * c.offset_deviation_m);
+    assert_less(fabs(c.offset_m - 0.024), 0.002);
+    assert_less(fabs(c.offset_m - 0.024), 3.0 * c.offset_deviation_m);
     o.out_path = FOLDER "/camera.json";
     assert_int_equal(calibrate_camera_write(&o, &c), RLF_OK);
     rlf_rig read;
@@ -450,9 +420,8 @@ static void test_depth_offset(void **state)
 }
 
 /* A printed board says what it is; other files do not. */
-static void test_printed_board(void **state)
+TEST_CASE(test_printed_board)
 {
-    (void)state;
     make_folder(FOLDER);
     const char *const paths[] = {FOLDER "/board.pdf", FOLDER "/board.svg"};
     for (int i = 0; i < 4; i++) {
@@ -473,9 +442,8 @@ static void test_printed_board(void **state)
 }
 
 /* The floor is the lowest level face that is large, not the lowest pixel or the largest table. */
-static void test_floor_is_the_lowest(void **state)
+TEST_CASE(test_floor_is_the_lowest)
 {
-    (void)state;
     static calibrate_stand s = {.level = 1000};
     double below = 0.0;
     assert_false(calibrate_stand_floor(&s, &below));
@@ -491,21 +459,4 @@ static void test_floor_is_the_lowest(void **state)
     assert_true(fabs(below - 1.305) < 1e-9);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_solve),
-        cmocka_unit_test(test_deviation),
-        cmocka_unit_test(test_flat_poses_are_refused),
-        cmocka_unit_test(test_one_part_is_refused),
-        cmocka_unit_test(test_pairs),
-        cmocka_unit_test(test_bad_views_are_named),
-        cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_blurred),
-        cmocka_unit_test(test_source),
-        cmocka_unit_test(test_depth_offset),
-        cmocka_unit_test(test_printed_board),
-        cmocka_unit_test(test_floor_is_the_lowest),
-    };
-    return cmocka_run_group_tests(tests, draw_all, NULL);
-}
+TEST_GROUP(draw_all, NULL)

@@ -44,9 +44,8 @@ static int clear(void **state)
     return 0;
 }
 
-static void equal_masks_have_no_error(void **state)
+TEST_CASE_WITH(equal_masks_have_no_error, clear, NULL)
 {
-    (void)state;
     put_disc(found, 60, 50, 20, 1);
     put_disc(truth, 60, 50, 20, REAL_INSIDE);
     real_mask_errors e = compare();
@@ -56,9 +55,8 @@ static void equal_masks_have_no_error(void **state)
 }
 
 /* A circle shifted by s is off by s |cos|, s 2/pi in the mean, to a fraction of a pixel. */
-static void shifted_disc_is_off_by_its_shift(void **state)
+TEST_CASE_WITH(shifted_disc_is_off_by_its_shift, clear, NULL)
 {
-    (void)state;
     put_disc(found, 64, 50, 25, 1);
     put_disc(truth, 60, 50, 25, REAL_INSIDE);
     real_mask_errors e = compare();
@@ -69,9 +67,8 @@ static void shifted_disc_is_off_by_its_shift(void **state)
     assert_true(fabs(real_mask_iou(&e) - both / (2.0 * RLF_PI * 625.0 - both)) < 0.01);
 }
 
-static void blots_are_told_from_outlines(void **state)
+TEST_CASE_WITH(blots_are_told_from_outlines, clear, NULL)
 {
-    (void)state;
     put_disc(found, 60, 50, 31, 1); /* an outline 1 pixel too wide is no blot */
     put_disc(truth, 60, 50, 30, REAL_INSIDE);
     put_disc(found, 60, 50, 4, 0);
@@ -81,9 +78,8 @@ static void blots_are_told_from_outlines(void **state)
     assert_int_equal(e.blot_outside_max, 29);
 }
 
-static void what_is_not_judged_does_not_count(void **state)
+TEST_CASE_WITH(what_is_not_judged_does_not_count, clear, NULL)
 {
-    (void)state;
     put_disc(truth, 60, 50, 20, REAL_INSIDE);
     put_disc(found, 60, 50, 20, 1);
     put_disc(found, 110, 10, 5, 1);
@@ -94,9 +90,8 @@ static void what_is_not_judged_does_not_count(void **state)
     assert_int_equal(e.blot_outside_max, 0);
 }
 
-static void closing_fills_what_is_narrow(void **state)
+TEST_CASE_WITH(closing_fills_what_is_narrow, clear, NULL)
 {
-    (void)state;
     put_disc(found, 60, 50, 30, 1);
     put_disc(found, 60, 50, 3, 0);
     real_mask_close(found, W, H, scratch);
@@ -109,9 +104,8 @@ static void closing_fills_what_is_narrow(void **state)
     assert_int_equal(found[50 * W + 60], 0);
 }
 
-static void planes_are_found(void **state)
+TEST_CASE_WITH(planes_are_found, clear, NULL)
 {
-    (void)state;
     static float ray_x[PIXELS], ray_y[PIXELS], depth[PIXELS];
     const rlf_depth_noise noise = {0.001, 0, 0};
     const rlf_vec3 up = rlf_normalize(rlf_vec3_make(0.1, -0.8, -0.6));
@@ -129,18 +123,16 @@ static void planes_are_found(void **state)
     assert_true(rlf_dot(real_window_normal(&points, 10 * W + 60), up) > 0.99999);
 }
 
-static void missing_clips_are_skipped(void **state)
+TEST_CASE(missing_clips_are_skipped)
 {
-    (void)state;
     static real_table table;
     const real_options options = {.folder = "no_such_folder", .silhouettes = "none"};
     assert_int_equal(real_run(&table, &options), RLF_OK);
     assert_int_equal(table.count, 0);
 }
 
-static void rows_keep_their_names(void **state)
+TEST_CASE(rows_keep_their_names)
 {
-    (void)state;
     static real_table table;
     const real_row row = {.key = "k",
                           .title = "T",
@@ -153,19 +145,4 @@ static void rows_keep_their_names(void **state)
         real_add(&table, "part", &row);
     }
     assert_true(table.is_full && table.count == REAL_ROWS_MAX);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(equal_masks_have_no_error, clear),
-        cmocka_unit_test_setup(shifted_disc_is_off_by_its_shift, clear),
-        cmocka_unit_test_setup(blots_are_told_from_outlines, clear),
-        cmocka_unit_test_setup(what_is_not_judged_does_not_count, clear),
-        cmocka_unit_test_setup(closing_fills_what_is_narrow, clear),
-        cmocka_unit_test_setup(planes_are_found, clear),
-        cmocka_unit_test(missing_clips_are_skipped),
-        cmocka_unit_test(rows_keep_their_names),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

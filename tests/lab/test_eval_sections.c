@@ -3,9 +3,8 @@
 #include "eval/physics/sheet.h"
 #include "test.h"
 
-static void sheet_shows_walls_and_slab(void **state)
+TEST_CASE(sheet_shows_walls_and_slab)
 {
-    (void)state;
     const eval_wall walls[2] = {{{0, 0, -1}, -3.0}, {{0, -1, 0}, -1.0}};
     const eval_slab slab = {{{0, 0, -1}, -2.0}, {0, 0, 2}, {0.1, 0.1, 0}, 0.3, {1, 2, 3}};
     eval_sheet sheet;
@@ -33,10 +32,4 @@ static void sheet_shows_walls_and_slab(void **state)
     assert_true(eval_sheet_sees(rlf_vec3_make(0, 0, 1)));
     assert_false(eval_sheet_sees(rlf_vec3_make(0, 0, -1)));
     eval_sheet_close(&sheet);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sheet_shows_walls_and_slab)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,9 +7,8 @@
 #include <math.h>
 
 /* A ball without friction onto a level floor: up again at its restitution, at the right place. */
-static void true_ball_bounces_exactly(void **state)
+TEST_CASE(true_ball_bounces_exactly)
 {
-    (void)state;
     rlf_source *room = NULL;
     assert_int_equal(rlf_open_source("synthetic:empty?color=0", NULL, &room), RLF_OK);
     const rlf_vec3 GRAVITY = {0, 9.81, 0};
@@ -32,9 +31,8 @@ static void true_ball_bounces_exactly(void **state)
 
 /* The person is in the middle of the view from 1.5 s on. The thesis's method shows that there is
  * something to go wrong. */
-static void lost_frames_of_a_walking_person_let_nothing_through(void **state)
+TEST_CASE(lost_frames_of_a_walking_person_let_nothing_through)
 {
-    (void)state;
     eval_throw_def def = {.source = "synthetic:room?color=0&frames=-1",
                           .aim = EVAL_AIM_ANY,
                           .throws = 40,
@@ -46,17 +44,14 @@ static void lost_frames_of_a_walking_person_let_nothing_through(void **state)
     assert_int_equal(eval_sensed_throw(&def, &o), RLF_OK);
     assert_int_equal(o.thrown, 40);
     assert_int_equal(o.tunnelled + o.swallowed + o.not_finite, 0);
-    assert_true(o.fastest < 15.0);
+    assert_less(o.fastest, 15.0);
     def.profile = RLF_PROFILE_THESIS;
     assert_int_equal(eval_sensed_throw(&def, &o), RLF_OK);
-    print_message("7 frames lost, thesis: %d tunnelled, %d in the person\n", (int)o.tunnelled,
-                  (int)o.swallowed);
     assert_true(o.tunnelled > 10 && o.swallowed > 0);
 }
 
-static void balls_bounce_as_they_truly_would(void **state)
+TEST_CASE(balls_bounce_as_they_truly_would)
 {
-    (void)state;
     eval_throw_def def = {.source = "synthetic:room?color=0&frames=-1",
                           .aim = EVAL_AIM_ANY,
                           .throws = 80,
@@ -66,19 +61,7 @@ static void balls_bounce_as_they_truly_would(void **state)
     assert_int_equal(eval_sensed_throw(&def, &live), RLF_OK);
     def.profile = RLF_PROFILE_THESIS;
     assert_int_equal(eval_sensed_throw(&def, &thesis), RLF_OK);
-    print_message("within 10 deg: live %d of %d, thesis %d of %d\n", (int)live.right_nearby,
-                  (int)live.bounces, (int)thesis.right_nearby, (int)thesis.bounces);
-    assert_true(live.bounces > 60);
-    assert_true(live.right_nearby > 0.85 * (double)live.bounces);
-    assert_true(thesis.right_nearby < 0.5 * (double)thesis.bounces);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(true_ball_bounces_exactly),
-        cmocka_unit_test(lost_frames_of_a_walking_person_let_nothing_through),
-        cmocka_unit_test(balls_bounce_as_they_truly_would),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    assert_less(60, live.bounces);
+    assert_less(0.85 * (double)live.bounces, live.right_nearby);
+    assert_less(thesis.right_nearby, 0.5 * (double)thesis.bounces);
 }

@@ -4,6 +4,7 @@
 #define RLF_TEST_ANALYTIC_H
 
 #include "relief/reconstruct.h"
+#include "pinhole.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -13,11 +14,7 @@ static inline rlf_rig analytic_rig(int32_t width, int32_t height)
 {
     rlf_rig rig;
     memset(&rig, 0, sizeof rig);
-    rig.depth.width = width;
-    rig.depth.height = height;
-    rig.depth.fx = rig.depth.fy = 0.714 * width;
-    rig.depth.cx = 0.5 * (width - 1);
-    rig.depth.cy = 0.5 * (height - 1);
+    rig.depth = pinhole(width, height, 0.714 * width);
     rig.T_color_depth = rlf_pose_identity();
     rig.depth_min_m = 0.5;
     rig.depth_max_m = 4.5;
@@ -31,13 +28,47 @@ static inline double plane_depth(rlf_vec3 n, double d, double x, double y)
     return d / (n.x * x + n.y * y + n.z);
 }
 
-/* Depth of the near side of a sphere; 0 where the ray misses. */
+/* Where a ray from `from` along `way` enters a sphere and leaves it, in lengths of `way`; false
+ * when it misses. */
+static inline bool sphere_ray(rlf_vec3 centre, double radius, rlf_vec3 from, rlf_vec3 way,
+                              double *in, double *leave)
+{
+    rlf_vec3 to = rlf_sub(centre, from);
+    double a = rlf_dot(way, way), b = rlf_dot(way, to);
+    double root = b * b - a * (rlf_dot(to, to) - radius * radius);
+    if (!(root > 0.0)) {
+        return false;
+    }
+    *in = (b - sqrt(root)) / a;
+    *leave = (b + sqrt(root)) / a;
+    return true;
+}
+
+/* Depth of the near side of a sphere along the ray (x, y, 1); 0 where it misses. */
 static inline double sphere_depth(rlf_vec3 centre, double radius, double x, double y)
 {
-    rlf_vec3 m = {x, y, 1.0};
-    double a = rlf_dot(m, m), b = rlf_dot(m, centre);
-    double root = b * b - a * (rlf_dot(centre, centre) - radius * radius);
-    return root < 0.0 ? 0.0 : (b - sqrt(root)) / a;
+    double in, leave;
+    const rlf_vec3 eye = {0.0, 0.0, 0.0}, way = {x, y, 1.0};
+    return sphere_ray(centre, radius, eye, way, &in, &leave) ? in : 0.0;
+}
+
+/* Where a ray from `from` along `way` enters a box and leaves it, in lengths of `way`; false when
+ * it misses, or only what is behind it. */
+static inline bool box_ray(const rlf_aabb *box, rlf_vec3 from, rlf_vec3 way, double *in,
+                           double *leave)
+{
+    const double f[3] = {from.x, from.y, from.z}, w[3] = {way.x, way.y, way.z};
+    const double low[3] = {box->min.x, box->min.y, box->min.z};
+    const double high[3] = {box->max.x, box->max.y, box->max.z};
+    *in = -1e9;
+    *leave = 1e9;
+    for (int k = 0; k < 3; k++) {
+        const double by = w[k] > -1e-12 && w[k] < 1e-12 ? 1e-12 : w[k];
+        const double a = (low[k] - f[k]) / by, b = (high[k] - f[k]) / by;
+        *in = rlf_max(*in, rlf_min(a, b));
+        *leave = rlf_min(*leave, rlf_max(a, b));
+    }
+    return *in<*leave && * leave> 0.0;
 }
 
 /* xorshift64* (Vigna 2016) and the sum of 12 uniforms: about normal, no library needed. */

@@ -2,6 +2,7 @@
 #ifndef RELIEF_TESTS_GOLDEN_HASH_H
 #define RELIEF_TESTS_GOLDEN_HASH_H
 
+#include "created.h"
 #include "test.h"
 #include "relief/pipeline.h"
 #include "relief/synthetic.h"
@@ -56,19 +57,16 @@ static inline uint64_t golden_surface(uint64_t hash, const rlf_surface *s)
 static inline golden golden_replay(rlf_profile profile, int32_t workers, int32_t frames,
                                    int32_t every)
 {
-    rlf_pool *pool = NULL;
-    assert_int_equal(rlf_pool_create(workers, &pool), RLF_OK);
+    rlf_pool *pool = pool_of(workers);
     rlf_synthetic_def synthetic = rlf_synthetic_def_default();
     synthetic.frame_count = frames;
     synthetic.pool = pool;
-    rlf_source *source = NULL;
-    assert_int_equal(rlf_synthetic_create(&synthetic, &source), RLF_OK);
+    rlf_source *source = synthetic_of(&synthetic);
     rlf_scene scene;
     assert_int_equal(rlf_scene_create_two_cubes(&scene), RLF_OK);
     rlf_pipeline_def def = rlf_pipeline_def_default(profile, source, pool);
     def.scene = &scene;
-    rlf_pipeline *pipeline = NULL;
-    assert_int_equal(rlf_pipeline_create(&def, &pipeline), RLF_OK);
+    rlf_pipeline *pipeline = pipeline_of(&def);
     golden result = {.profile = profile, .surface = UINT64_C(14695981039346656037)};
     rlf_pipeline_output out;
     while (rlf_pipeline_step(pipeline, &out) == RLF_OK) {

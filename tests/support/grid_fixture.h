@@ -96,6 +96,23 @@ static inline void grid_fixture_destroy(grid_fixture **f)
     *f = NULL;
 }
 
+/* Ray of pixel i: x and y at a depth of 1. */
+static inline rlf_vec3 grid_fixture_ray(const grid_fixture *f, int32_t i)
+{
+    return rlf_vec3_make((double)f->planes[0][i], (double)f->planes[1][i], 1.0);
+}
+
+/* Pixel i shows a face at depth z with normal n, of the background or, as a layer's first plane is
+ * its depth, of the foreground. */
+enum { GRID_BACKGROUND = 2, GRID_FOREGROUND = 6, GRID_THICKNESS = 13 };
+static inline void grid_fixture_paint(grid_fixture *f, int layer, int32_t i, double z, rlf_vec3 n)
+{
+    f->planes[layer][i] = (float)z;
+    f->planes[layer + 1][i] = (float)n.x;
+    f->planes[layer + 2][i] = (float)n.y;
+    f->planes[layer + 3][i] = (float)n.z;
+}
+
 /* Background: the nearest of the planes along each ray, up to 12 m. Also the one region. */
 static inline void grid_fixture_set_room(grid_fixture *f, const grid_plane *planes, int32_t count)
 {
@@ -104,16 +121,13 @@ static inline void grid_fixture_set_room(grid_fixture *f, const grid_plane *plan
         double best = 12.0;
         f->planes[2][i] = 0.0f;
         f->labels[0][i] = 0;
-        rlf_vec3 ray = rlf_vec3_make(f->planes[0][i], f->planes[1][i], 1.0);
+        rlf_vec3 ray = grid_fixture_ray(f, i);
         for (int32_t k = 0; k < count; k++) {
             double slope = rlf_dot(planes[k].n, ray);
             double z = slope < -1e-4 ? planes[k].d / slope : 1e9;
             if (z < best) {
                 best = z;
-                f->planes[2][i] = (float)z;
-                f->planes[3][i] = (float)planes[k].n.x;
-                f->planes[4][i] = (float)planes[k].n.y;
-                f->planes[5][i] = (float)planes[k].n.z;
+                grid_fixture_paint(f, GRID_BACKGROUND, i, z, planes[k].n);
                 f->labels[0][i] = 1;
             }
         }
@@ -133,7 +147,7 @@ static inline void grid_fixture_set_slab(grid_fixture *f, grid_plane plane, rlf_
 {
     memset(f->mask, 0, (size_t)GRID_W * GRID_H);
     for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
-        rlf_vec3 ray = rlf_vec3_make(f->planes[0][i], f->planes[1][i], 1.0);
+        rlf_vec3 ray = grid_fixture_ray(f, i);
         double slope = rlf_dot(plane.n, ray);
         double z = slope < -1e-4 ? plane.d / slope : 0.0;
         rlf_vec3 d = rlf_sub(rlf_scale(ray, z), centre);
@@ -141,10 +155,7 @@ static inline void grid_fixture_set_slab(grid_fixture *f, grid_plane plane, rlf_
                      (half.y <= 0 || (d.y <= half.y && d.y >= -half.y)) &&
                      (half.z <= 0 || (d.z <= half.z && d.z >= -half.z));
         f->mask[i] = is_in;
-        f->planes[6][i] = is_in ? (float)z : 0.0f;
-        f->planes[7][i] = (float)plane.n.x;
-        f->planes[8][i] = (float)plane.n.y;
-        f->planes[9][i] = (float)plane.n.z;
+        grid_fixture_paint(f, GRID_FOREGROUND, i, is_in ? z : 0.0, plane.n);
         f->planes[10][i] = (float)velocity.x;
         f->planes[11][i] = (float)velocity.y;
         f->planes[12][i] = (float)velocity.z;

@@ -52,7 +52,7 @@ static inline double grid_hand_noise(uint32_t *seed)
 static inline void grid_limb_see(grid_fixture *f, const grid_limb *limb)
 {
     for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
-        rlf_vec3 ray = rlf_vec3_make(f->planes[0][i], f->planes[1][i], 1.0), gradient;
+        rlf_vec3 ray = grid_fixture_ray(f, i), gradient;
         double enter, leave, reach = 0.5 * limb->shape.height + limb->shape.radius;
         double closest = rlf_dot(ray, limb->pose.p) / rlf_dot(ray, ray);
         if (rlf_length(rlf_sub(rlf_scale(ray, closest), limb->pose.p)) > reach) {
@@ -68,10 +68,7 @@ static inline void grid_limb_see(grid_fixture *f, const grid_limb *limb)
         rlf_vec3 n = rlf_rotate(limb->pose.q, gradient);
         f->mask[i] = 1;
         f->labels[1][i] = 2;
-        f->planes[6][i] = (float)enter;
-        f->planes[7][i] = (float)n.x;
-        f->planes[8][i] = (float)n.y;
-        f->planes[9][i] = (float)n.z;
+        grid_fixture_paint(f, GRID_FOREGROUND, i, enter, n);
         f->planes[10][i] = (float)limb->velocity.x;
         f->planes[11][i] = (float)limb->velocity.y;
         f->planes[12][i] = (float)limb->velocity.z;

@@ -16,9 +16,20 @@
 static grid_fixture *grid_room;
 static double grid_room_down; /* y of the way down, of length 1 */
 
-/* Of its solid only the front is seen: 15 cm are guessed. */
+/* A group's tear-down, or each test's. */
+static inline int grid_room_destroy(void **state)
+{
+    (void)state;
+    if (grid_room != NULL) {
+        grid_fixture_destroy(&grid_room);
+    }
+    return 0;
+}
+
+/* Of its solid only the front is seen: 15 cm are guessed. Instead of one that is there. */
 static inline void grid_room_create(void)
 {
+    grid_room_destroy(NULL);
     grid_plane planes[2] = {grid_floor(GRID_ROOM_FLOOR), grid_wall(GRID_ROOM_WALL)};
     grid_room = grid_fixture_create();
     grid_room_down = 1.0;
@@ -26,27 +37,22 @@ static inline void grid_room_create(void)
     grid_room->grid.background.default_thickness = 0.15;
 }
 
-/* A group's tear-down. */
-static inline int grid_room_destroy(void **state)
+/* A group's set-up. */
+static inline int grid_room_start(void **state)
 {
     (void)state;
-    grid_fixture_destroy(&grid_room);
+    grid_room_create();
     return 0;
 }
 
-/* Ray of pixel i: x and y at a depth of 1. */
 static inline rlf_vec3 grid_room_ray(int32_t i)
 {
-    return rlf_vec3_make((double)grid_room->planes[0][i], (double)grid_room->planes[1][i], 1.0);
+    return grid_fixture_ray(grid_room, i);
 }
 
-/* Pixel i shows a face at depth z with normal n. */
 static inline void grid_room_paint(int32_t i, double z, rlf_vec3 n)
 {
-    grid_room->planes[2][i] = (float)z;
-    grid_room->planes[3][i] = (float)n.x;
-    grid_room->planes[4][i] = (float)n.y;
-    grid_room->planes[5][i] = (float)n.z;
+    grid_fixture_paint(grid_room, GRID_BACKGROUND, i, z, n);
 }
 
 /* Turns the camera upside down: the room is now its image in the plane y = 0. */
@@ -81,9 +87,8 @@ static inline grid_room_way grid_room_run(rlf_border border, const rlf_body_def 
     world_def.border = border;
     world_def.body_capacity = 1;
     world_def.gravity.y *= grid_room_down;
-    rlf_world *world = NULL;
-    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
-    assert_int_equal(rlf_world_add_body(world, def, NULL), RLF_OK);
+    rlf_world *world = world_of(&world_def);
+    add_body(world, def);
     for (int k = 0; k < frames && way.is_there; k++) {
         grid_room->grid.time_ns++;
         rlf_world_advance(world, &grid_room->grid, GRID_ROOM_FRAME);

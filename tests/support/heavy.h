@@ -4,6 +4,8 @@
 #ifndef RLF_TEST_HEAVY_H
 #define RLF_TEST_HEAVY_H
 
+#include "test.h"
+
 #include <stdbool.h>
 
 #ifndef RLF_TEST_SANITIZED
@@ -20,6 +22,14 @@ static inline int heavy(int all, int few)
 static inline bool heavy_is_whole(void)
 {
     return !RLF_TEST_SANITIZED;
+}
+
+/* Ends a test whose code others run with sanitizers: for its figures alone. */
+static inline void heavy_needs_whole(void)
+{
+    if (!heavy_is_whole()) {
+        skip();
+    }
 }
 
 #endif

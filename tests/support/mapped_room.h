@@ -5,6 +5,7 @@
 
 #include "relief/map.h"
 #include "relief/world.h"
+#include "pinhole.h"
 
 #include <string.h>
 
@@ -35,12 +36,7 @@ static inline bool mapped_room_project(const void *context, rlf_vec3 p, double *
 static inline void mapped_room_init(mapped_room *room)
 {
     memset(room, 0, sizeof(*room));
-    room->rig.depth = (rlf_camera){.width = MAPPED_W,
-                                   .height = MAPPED_H,
-                                   .fx = MAPPED_F,
-                                   .fy = MAPPED_F,
-                                   .cx = 0.5 * (MAPPED_W - 1),
-                                   .cy = 0.5 * (MAPPED_H - 1)};
+    room->rig.depth = pinhole(MAPPED_W, MAPPED_H, MAPPED_F);
     room->rig.depth_min_m = 0.2;
     room->rig.depth_max_m = 8.0;
     room->rig.noise = (rlf_depth_noise){0.001, 0.0, 0.0};

@@ -1,10 +1,24 @@
-/* A view of analytic surfaces as a sensor sees them, and the surface stage on it. Included after
- * cmocka.h. */
+/* A view of analytic surfaces as a sensor sees them, and the surface stage on it. */
 #ifndef RLF_TEST_SEEN_VIEW_H
 #define RLF_TEST_SEEN_VIEW_H
 
-#include "test.h"
 #include "analytic.h"
+#include "test.h"
+
+static inline rlf_reconstruct *stage_of(const rlf_reconstruct_def *def)
+{
+    rlf_reconstruct *stage = NULL;
+    assert_int_equal(rlf_reconstruct_create(def, &stage), RLF_OK);
+    return stage;
+}
+
+/* The stage's surface of a frame. */
+static inline const rlf_surface *surface_of(rlf_reconstruct *stage, const rlf_frame *frame)
+{
+    const rlf_surface *surface = NULL;
+    assert_int_equal(rlf_reconstruct_process(stage, frame, &surface), RLF_OK);
+    return surface;
+}
 
 typedef struct seen_view {
     rlf_rig rig;
@@ -45,9 +59,7 @@ static inline const rlf_surface *seen_depth_process(const rlf_rig *rig, const fl
                                                     rlf_reconstruct *stage, int32_t number)
 {
     rlf_frame frame = analytic_frame(rig, depth, number);
-    const rlf_surface *s = NULL;
-    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
-    return s;
+    return surface_of(stage, &frame);
 }
 
 /* The stage's surface of what is seen. */
@@ -55,13 +67,6 @@ static inline const rlf_surface *seen_view_process(const seen_view *v, rlf_recon
                                                    int32_t number)
 {
     return seen_depth_process(&v->rig, v->seen, stage, number);
-}
-
-static inline rlf_reconstruct *seen_view_stage(const rlf_reconstruct_def *def)
-{
-    rlf_reconstruct *stage = NULL;
-    assert_int_equal(rlf_reconstruct_create(def, &stage), RLF_OK);
-    return stage;
 }
 
 /* A view with its stage, the state of a group of tests. */
@@ -75,7 +80,7 @@ static inline void staged_view_create(staged_view *s, const rlf_reconstruct_def 
 {
     seen_view_create(&s->view, def->rig, seed);
     s->back = rlf_alloc_array((size_t)s->view.count, sizeof(float));
-    s->stage = seen_view_stage(def);
+    s->stage = stage_of(def);
 }
 
 /* A group's tear-down. */

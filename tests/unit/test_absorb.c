@@ -67,28 +67,17 @@ static double shrinks(int32_t k)
     return k < 70 ? 1.0 : 0.5;
 }
 
-static void what_stands_is_room_after_a_while(void **state)
+TEST_CASE(what_stands_is_room_after_a_while)
 {
-    (void)state;
     const int32_t due = FRAMES - (int32_t)(AFTER_S * 30.0) - 1;
     assert_int_equal(frames_of_room(stands, one, 0.0), due);
     assert_int_equal(frames_of_room(stands, one, 0.4), due);
     assert_int_equal(frames_of_room(stands, shrinks, 0.0), due);
 }
 
-static void what_moves_never_is(void **state)
+TEST_CASE(what_moves_never_is)
 {
-    (void)state;
     assert_int_equal(frames_of_room(walks, one, 0.0), 0);
     assert_int_equal(frames_of_room(sways, one, 0.0), 0);
     assert_int_equal(frames_of_room(stands, reaches, 0.0), 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_stands_is_room_after_a_while),
-        cmocka_unit_test(what_moves_never_is),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

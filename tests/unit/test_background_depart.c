@@ -1,40 +1,36 @@
 /* A box that stands before a wall from the first frame on, and then goes: it is foreground whole,
  * though most of it shows the depth that it had. */
-#include "seen_view.h"
+#include "painted.h"
 #include "test.h"
 
 enum { WIDTH = 160, HEIGHT = 120, COUNT = WIDTH * HEIGHT, X0 = 50, X1 = 90, Y0 = 40, Y1 = 80 };
 enum { STILL = 60 };
 
 static const float WALL = 2.0f, BOX = 1.4f;
-static float depth[COUNT];
 
-static bool is_in(int i, int x)
+static bool is_box(int i, int x)
 {
     return i % WIDTH >= X0 + x && i % WIDTH < X1 + x && i / WIDTH >= Y0 && i / WIDTH < Y1;
 }
 
 /* A box `x` pixels aside and `nearer` metres before its place, and what comes in from the left. */
-static const rlf_surface *show(rlf_reconstruct *stage, int frame, int x, float nearer, int hand)
+static const rlf_surface *show(int x, float nearer, int hand)
 {
-    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
     for (int i = 0; i < COUNT; i++) {
-        depth[i] = is_in(i, x) ? BOX - nearer : WALL;
+        depth[i] = is_box(i, x) ? BOX - nearer : WALL;
         bool is_hand = i % WIDTH < hand && i / WIDTH >= Y0 + 10 && i / WIDTH < Y1 - 10;
         depth[i] = is_hand ? BOX - 0.03f : depth[i];
     }
-    return seen_depth_process(&rig, depth, stage, frame);
+    return see();
 }
 
-static rlf_reconstruct *stand(void)
+static void stand(void)
 {
-    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
-    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
-    rlf_reconstruct *stage = seen_view_stage(&def);
+    const rlf_reconstruct_def def = see_size(WIDTH, HEIGHT);
+    start_seeing(&def);
     for (int k = 0; k < STILL; k++) {
-        assert_int_equal(show(stage, k, 0, 0.0f, 0)->foreground_count, 0);
+        assert_int_equal(show(0, 0.0f, 0)->foreground_count, 0);
     }
-    return stage;
 }
 
 /* Share of the box that is foreground, and of its pixels that still have a background there. */
@@ -42,7 +38,7 @@ static double share_of(const rlf_surface *s, int x, bool is_background)
 {
     int count = 0, all = 0;
     for (int i = 0; i < COUNT; i++) {
-        if (is_in(i, x)) {
+        if (is_box(i, x)) {
             all++;
             bool stands = s->background_depth[i] > 0.0f && s->background_depth[i] < 1.7f;
             count += is_background ? stands : s->foreground[i] != 0;
@@ -51,52 +47,44 @@ static double share_of(const rlf_surface *s, int x, bool is_background)
     return (double)count / all;
 }
 
-static void what_goes_aside_is_foreground_whole(void **state)
+TEST_CASE(what_goes_aside_is_foreground_whole)
 {
-    (void)state;
-    rlf_reconstruct *stage = stand();
+    stand();
     const rlf_surface *s = NULL;
     for (int k = 1; k <= 6; k++) {
-        s = show(stage, STILL + k, k, 0.0f, 0);
+        s = show(k, 0.0f, 0);
     }
     assert_true(share_of(s, 6, false) > 0.9);
     assert_true(share_of(s, 6, true) < 0.1);
-    rlf_reconstruct_destroy(&stage);
 }
 
-static void what_comes_nearer_leaves_nothing_behind_it(void **state)
+TEST_CASE(what_comes_nearer_leaves_nothing_behind_it)
 {
-    (void)state;
-    rlf_reconstruct *stage = stand();
+    stand();
     const rlf_surface *s = NULL;
     for (int k = 1; k <= 10; k++) {
-        s = show(stage, STILL + k, 0, 0.004f * (float)k, 0);
+        s = show(0, 0.004f * (float)k, 0);
     }
     assert_true(share_of(s, 0, false) > 0.9);
     assert_true(share_of(s, 0, true) < 0.1);
-    rlf_reconstruct_destroy(&stage);
 }
 
-static void what_is_touched_stays_background(void **state)
+TEST_CASE(what_is_touched_stays_background)
 {
-    (void)state;
-    rlf_reconstruct *stage = stand();
+    stand();
     const rlf_surface *s = NULL;
     for (int k = 1; k <= 30; k++) {
-        s = show(stage, STILL + k, 0, 0.0f, 2 * k + 10);
+        s = show(0, 0.0f, 2 * k + 10);
     }
     assert_true(share_of(s, 0, true) > 0.9);
-    rlf_reconstruct_destroy(&stage);
 }
 
 /* Half the side of a plate, which is turned in the image, and its distance. */
 static const double half = 18.0, turned = 0.35, plate = 1.4;
 
 /* The plate, moved by a part of a pixel; with the rig's noise. */
-static const rlf_surface *show_plate(rlf_reconstruct *stage, int frame, double x,
-                                     analytic_random *random)
+static const rlf_surface *show_plate(double x, analytic_random *random)
 {
-    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
     const double c = rlf_cos(turned), n = rlf_sin(turned);
     for (int i = 0; i < COUNT; i++) {
         const double u = i % WIDTH - 70.0 - x, v = i / WIDTH - 60.0;
@@ -105,23 +93,21 @@ static const rlf_surface *show_plate(rlf_reconstruct *stage, int frame, double x
         const double sigma = rlf_depth_noise_sigma(&rig.noise, z);
         depth[i] = (float)(z + sigma * random_normal(random));
     }
-    return seen_depth_process(&rig, depth, stage, frame);
+    return see();
 }
 
 /* Along the image, by a tenth of a pixel per frame: less than any frame's noise. */
-static void what_creeps_has_its_velocity(void **state)
+TEST_CASE(what_creeps_has_its_velocity)
 {
-    (void)state;
-    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
-    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
-    rlf_reconstruct *stage = seen_view_stage(&def);
+    const rlf_reconstruct_def def = see_size(WIDTH, HEIGHT);
+    start_seeing(&def);
     analytic_random random = {7};
     const double speed = 0.1 * 30.0 * plate / rig.depth.fx;
     int told = -1;
     for (int k = 0; k < 300;
          k++) { /* for most of that it stands, and nothing else does otherwise */
         const double way = k < 240 ? 0.0 : 0.1 * (k - 240);
-        const rlf_surface *s = show_plate(stage, k, way, &random);
+        const rlf_surface *s = show_plate(way, &random);
         assert_true(k >= 240 || s->foreground_count == 0);
         told = told < 0 && s->foreground_count > 900 ? k : told;
         if (k >= 275) {
@@ -132,16 +118,6 @@ static void what_creeps_has_its_velocity(void **state)
     }
     print_message("at %.0f mm/s: told after %d frames\n", 1e3 * speed, told - 240);
     assert_in_range(told, 240, 270);
-    rlf_reconstruct_destroy(&stage);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_creeps_has_its_velocity),
-        cmocka_unit_test(what_goes_aside_is_foreground_whole),
-        cmocka_unit_test(what_comes_nearer_leaves_nothing_behind_it),
-        cmocka_unit_test(what_is_touched_stays_background),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(NULL, stop_seeing)

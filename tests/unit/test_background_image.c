@@ -1,43 +1,45 @@
 /* The published background: made a few tiles a frame, it is what one made at once would be. */
 
-#include "analytic.h"
-#include "heavy.h"
-#include "surface/objects/objects.h"
+#include "surface/objects/objects.h" /* before the names of painted.h */
 #include "surface/steps.h"
+
+#include "heavy.h"
+#include "painted.h"
 #include "test.h"
 
 enum { WIDTH = 330, HEIGHT = 230, COUNT = WIDTH * HEIGHT, TILES = 4 * 3 };
 
-static float depth[COUNT];
+static analytic_random noise;
 
-static rlf_reconstruct *make_stage(void)
+static void begin(uint64_t seed)
 {
-    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
-    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
-    rlf_reconstruct *stage = NULL;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    const rlf_reconstruct_def def = see_size(WIDTH, HEIGHT);
+    start_seeing(&def);
+    noise = (analytic_random){seed};
     assert_int_equal(background_image_tiles(&stage->grid), TILES);
-    return stage;
 }
 
-/* Two noisy walls that meet in a corner, `away` farther than at first. */
-static const rlf_surface *step(rlf_reconstruct *stage, analytic_random *random, double away,
-                               int32_t number)
+/* Of two walls that meet in a corner. */
+static double corner_depth(int i, double away)
 {
-    const rlf_rig *rig = &stage->def.rig;
     const rlf_vec3 left = {0.6, 0.0, -0.8}, right = {-0.6, 0.0, -0.8};
+    double x = (i % WIDTH - rig.depth.cx) / rig.depth.fx;
+    double y = (i / WIDTH - rig.depth.cy) / rig.depth.fy;
+    return rlf_min(plane_depth(left, -1.6 - away, x, y), plane_depth(right, -1.6 - away, x, y));
+}
+
+static void sense(int i, double z)
+{
+    depth[i] = (float)(z + rlf_depth_noise_sigma(&rig.noise, z) * random_normal(&noise));
+}
+
+/* The corner, `away` farther than at first. */
+static const rlf_surface *step(double away)
+{
     for (int i = 0; i < COUNT; i++) {
-        double x = (i % WIDTH - rig->depth.cx) / rig->depth.fx;
-        double y = (i / WIDTH - rig->depth.cy) / rig->depth.fy;
-        double z =
-            rlf_min(plane_depth(left, -1.6 - away, x, y), plane_depth(right, -1.6 - away, x, y));
-        depth[i] = (float)(z + rlf_depth_noise_sigma(&rig->noise, z) * random_normal(random));
+        sense(i, corner_depth(i, away));
     }
-    rlf_frame frame = analytic_frame(rig, depth, number);
-    frame.rig = NULL;
-    const rlf_surface *s = NULL;
-    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
-    return s;
+    return see();
 }
 
 /* Cosine of the angle between two normals; 1 where both are missing. */
@@ -48,15 +50,13 @@ static double agreement(const rlf_surface *s, float *const whole[3], int32_t i)
     return rlf_length(a) == 0.0 && rlf_length(b) == 0.0 ? 1.0 : rlf_dot(a, b);
 }
 
-static void tiles_make_the_same_normals_as_the_whole(void **state)
+TEST_CASE(tiles_make_the_same_normals_as_the_whole)
 {
-    (void)state;
-    rlf_reconstruct *stage = make_stage();
+    begin(5);
     stage->def.enable_edge_normals = false; /* those of the frames are not the model's */
-    analytic_random random = {5};
     const rlf_surface *s = NULL;
     for (int t = 0; t < 90; t++) {
-        s = step(stage, &random, 0.0, t);
+        s = step(0.0);
     }
     static float planes[3][COUNT];
     float *const whole[3] = {planes[0], planes[1], planes[2]};
@@ -67,21 +67,16 @@ static void tiles_make_the_same_normals_as_the_whole(void **state)
         differ += agreement(s, whole, i) < 0.99996; /* half a degree */
     }
     assert_true(differ * 1000 < COUNT);
-    rlf_reconstruct_destroy(&stage);
 }
 
 /* The first image is the mean of five frames; the last one of many. */
-static void means_get_better_without_a_change(void **state)
+TEST_CASE(means_get_better_without_a_change)
 {
-    (void)state;
-    if (!heavy_is_whole()) {
-        skip(); /* the other tests run the same code */
-    }
-    rlf_reconstruct *stage = make_stage();
-    analytic_random random = {6};
+    heavy_needs_whole(); /* the other tests run the same code */
+    begin(6);
     double sum[2] = {0.0, 0.0};
     for (int t = 0; t < 90; t++) {
-        const rlf_surface *s = step(stage, &random, 0.0, t);
+        const rlf_surface *s = step(0.0);
         for (int i = 0; (t == 4 || t == 89) && i < COUNT; i++) {
             if (i % WIDTH > WIDTH / 2 - 20 && i % WIDTH < WIDTH / 2 + 20) {
                 continue; /* the corner */
@@ -91,10 +86,9 @@ static void means_get_better_without_a_change(void **state)
         }
     }
     assert_true(sum[1] < 0.5 * sum[0]);
-    rlf_reconstruct_destroy(&stage);
 }
 
-static int32_t tiles_made(const rlf_reconstruct *stage, const int32_t *before)
+static int32_t tiles_made(const int32_t *before)
 {
     int32_t made = 0;
     for (int tile = 0; tile < TILES; tile++) {
@@ -104,19 +98,17 @@ static int32_t tiles_made(const rlf_reconstruct *stage, const int32_t *before)
 }
 
 /* The whole room steps back: everything is replaced, soon, but not in one frame. */
-static void no_frame_makes_more_than_its_share(void **state)
+TEST_CASE(no_frame_makes_more_than_its_share)
 {
-    (void)state;
-    rlf_reconstruct *stage = make_stage();
-    analytic_random random = {7};
+    begin(7);
     for (int t = 0; t < 90; t++) {
-        step(stage, &random, 0.0, t);
+        step(0.0);
     }
     int32_t before[TILES], total = 0;
     for (int t = 90; t < 100; t++) {
         memcpy(before, stage->background.version, sizeof before);
-        const rlf_surface *s = step(stage, &random, 0.5, t);
-        int32_t made = tiles_made(stage, before);
+        const rlf_surface *s = step(0.5);
+        int32_t made = tiles_made(before);
         assert_true(made <= 1 + TILES / 5);
         total += made;
         if (t == 99) {
@@ -127,31 +119,27 @@ static void no_frame_makes_more_than_its_share(void **state)
             }
         }
     }
-    rlf_reconstruct_destroy(&stage);
 }
 
 /* The regions of a image cost as much as all its tiles: no frame finds them all, nor makes tiles
  * beside a part of that. Only what leaves is shown at once. */
-static void regions_take_several_frames(void **state)
+TEST_CASE(regions_take_several_frames)
 {
-    (void)state;
-    rlf_reconstruct *stage = make_stage();
+    begin(11);
     const rlf_background *background = &stage->background;
-    analytic_random random = {11};
     int32_t before[TILES], images = 0;
     for (int t = 0; t < 90; t++) {
         int32_t steps = background->object_steps, newest = background->newest;
         bool is_made = background->is_made;
         memcpy(before, background->version, sizeof before);
-        step(stage, &random, 0.0, t);
+        step(0.0);
         bool is_new = newest >= 0 && background->newest != newest;
         assert_true(!is_new || (is_made && steps == RLF_OBJECT_STEPS));
         assert_true(is_new || background->object_steps <= steps + 1);
-        assert_true(!is_made || tiles_made(stage, before) == 0);
+        assert_true(!is_made || tiles_made(before) == 0);
         images += is_new;
     }
     assert_true(images >= 2);
-    rlf_reconstruct_destroy(&stage);
 }
 
 static double sum_of(const rlf_surface *s)
@@ -165,97 +153,60 @@ static double sum_of(const rlf_surface *s)
 }
 
 /* Tiles are made in a image that no valid surface shows. */
-static void valid_surfaces_keep_their_background(void **state)
+TEST_CASE(valid_surfaces_keep_their_background)
 {
-    (void)state;
-    if (!heavy_is_whole()) {
-        skip(); /* the other tests run the same code */
-    }
-    rlf_reconstruct *stage = make_stage();
-    analytic_random random = {8};
+    heavy_needs_whole(); /* the other tests run the same code */
+    begin(8);
     const rlf_surface *s[RLF_RECONSTRUCT_SURFACES] = {NULL};
     double sum[RLF_RECONSTRUCT_SURFACES] = {0.0};
     for (int t = 0; t < 60; t++) {
         int now = t % RLF_RECONSTRUCT_SURFACES;
-        s[now] = step(stage, &random, t < 30 ? 0.0 : 0.02 * (t - 30), t);
+        s[now] = step(t < 30 ? 0.0 : 0.02 * (t - 30));
         sum[now] = sum_of(s[now]);
         for (int k = 0; k < RLF_RECONSTRUCT_SURFACES; k++) {
             assert_true(s[k] == NULL || sum_of(s[k]) == sum[k]);
         }
     }
-    rlf_reconstruct_destroy(&stage);
 }
 
 /* Early on, something small leaves: one tile changes, and the others stay in the new image. */
-static void one_tile_changes_alone(void **state)
+TEST_CASE(one_tile_changes_alone)
 {
-    (void)state;
-    rlf_reconstruct *stage = make_stage();
-    analytic_random random = {9};
-    const rlf_vec3 left = {0.6, 0.0, -0.8}, right = {-0.6, 0.0, -0.8};
-    const rlf_rig *rig = &stage->def.rig;
+    begin(9);
     int32_t images = 0;
     for (int t = 0; t < 38; t++) {
         for (int i = 0; i < COUNT; i++) {
-            double x = (i % WIDTH - rig->depth.cx) / rig->depth.fx;
-            double y = (i / WIDTH - rig->depth.cy) / rig->depth.fy;
-            double z = rlf_min(plane_depth(left, -1.6, x, y), plane_depth(right, -1.6, x, y));
-            bool is_thing =
-                t < 8 && i % WIDTH >= 30 && i % WIDTH < 42 && i / WIDTH >= 30 && i / WIDTH < 42;
-            z -= is_thing ? 0.4 : 0.0;
-            depth[i] = (float)(z + rlf_depth_noise_sigma(&rig->noise, z) * random_normal(&random));
+            bool is_thing = t < 8 && is_in((area){30, 42, 30, 42}, i);
+            sense(i, corner_depth(i, 0.0) - (is_thing ? 0.4 : 0.0));
         }
-        rlf_frame frame = analytic_frame(rig, depth, t);
-        frame.rig = NULL;
         int32_t newest = stage->background.newest;
-        const rlf_surface *s = NULL;
-        assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+        const rlf_surface *s = see();
         images += stage->background.newest != newest;
         for (int i = 0; i < COUNT && s->background_state == RLF_BACKGROUND_READY; i++) {
             assert_true(s->background_depth[i] > 0.0f);
         }
     }
     assert_true(images >= 2); /* the first one, and one without the thing */
-    rlf_reconstruct_destroy(&stage);
 }
 
 /* In each frame one of three small patches steps back: that must not keep the others waiting. */
-static void a_sheet_is_finished_while_something_changes(void **state)
+TEST_CASE(a_sheet_is_finished_while_something_changes)
 {
-    (void)state;
     enum { SIDE = 6 };
-    rlf_reconstruct *stage = make_stage();
-    const rlf_rig *rig = &stage->def.rig;
-    analytic_random random = {10};
+    begin(10);
     int32_t images = 0;
     for (int t = 0; t < 80; t++) {
         for (int i = 0; i < COUNT; i++) {
             int x = i % WIDTH - 40, y = i / WIDTH - 40, patch = x / BACKGROUND_TILE;
             bool is_patch = x >= 0 && y >= 0 && y < SIDE && patch < 3 && x % BACKGROUND_TILE < SIDE;
             double z = 1.5 + (is_patch && t > 8 ? 0.1 * ((t + patch) / 3) : 0.0);
-            depth[i] = (float)(z + rlf_depth_noise_sigma(&rig->noise, z) * random_normal(&random));
+            sense(i, z);
         }
-        rlf_frame frame = analytic_frame(rig, depth, t);
-        frame.rig = NULL;
         int32_t newest = stage->background.newest;
-        const rlf_surface *s = NULL;
-        assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+        see();
         images += stage->background.newest != newest;
     }
     assert_true(images >= 4); /* one of five frames, and better ones */
-    rlf_reconstruct_destroy(&stage);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tiles_make_the_same_normals_as_the_whole),
-        cmocka_unit_test(means_get_better_without_a_change),
-        cmocka_unit_test(no_frame_makes_more_than_its_share),
-        cmocka_unit_test(regions_take_several_frames),
-        cmocka_unit_test(valid_surfaces_keep_their_background),
-        cmocka_unit_test(one_tile_changes_alone),
-        cmocka_unit_test(a_sheet_is_finished_while_something_changes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(NULL, stop_seeing)

@@ -2,15 +2,15 @@
 
 #include "count_assert.h"
 #include "relief/base.h"
+#include "created.h"
 #include "test.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static void error_line_is_one_line(void **state)
+TEST_CASE(error_line_is_one_line)
 {
-    (void)state;
     assert_int_equal(rlf_fail(RLF_ERROR_IO, "a\nb %d", 3), RLF_ERROR_IO);
     assert_string_equal(rlf_error_text(), "a b 3");
     assert_int_equal(rlf_fail(RLF_ERROR_IO, "file: %s", rlf_error_text()), RLF_ERROR_IO);
@@ -18,9 +18,8 @@ static void error_line_is_one_line(void **state)
     assert_string_equal(rlf_result_name(RLF_ERROR_FORMAT), "RLF_ERROR_FORMAT");
 }
 
-static void allocations_are_aligned_zeroed_and_counted(void **state)
+TEST_CASE(allocations_are_aligned_zeroed_and_counted)
 {
-    (void)state;
     uint64_t before = rlf_alloc_count();
     unsigned char *memory = rlf_alloc(100);
     assert_non_null(memory);
@@ -33,9 +32,8 @@ static void allocations_are_aligned_zeroed_and_counted(void **state)
     assert_int_equal(rlf_alloc_count() - before, 1);
 }
 
-static void failed_assertion_is_a_safe_no_op(void **state)
+TEST_CASE(failed_assertion_is_a_safe_no_op)
 {
-    (void)state;
     int count = 0;
     rlf_set_assert(count_assert, &count);
     rlf_parallel_for(NULL, 10, 0, NULL, NULL);
@@ -56,12 +54,10 @@ static void sum_chunk(void *context, int32_t begin, int32_t end, int32_t worker)
     }
 }
 
-static void parallel_for_covers_the_range_once(void **state)
+TEST_CASE(parallel_for_covers_the_range_once)
 {
-    (void)state;
     for (int32_t workers = 1; workers <= 4; workers++) {
-        rlf_pool *pool = NULL;
-        assert_int_equal(rlf_pool_create(workers, &pool), RLF_OK);
+        rlf_pool *pool = pool_of(workers);
         for (int repeat = 0; repeat < 200; repeat++) {
             sums s = {{0}};
             rlf_parallel_for(pool, 500, 7, sum_chunk, &s);
@@ -93,11 +89,9 @@ static void write_job(void *context, int32_t begin, int32_t end, int32_t worker)
 
 /* Most of these are over before a sleeping worker wakes: it must not touch the next one's chunks
  * with this one's function, nor this one's context, which is gone by then. */
-static void tiny_jobs_in_a_row_do_not_mix(void **state)
+TEST_CASE(tiny_jobs_in_a_row_do_not_mix)
 {
-    (void)state;
-    rlf_pool *pool = NULL;
-    assert_int_equal(rlf_pool_create(4, &pool), RLF_OK);
+    rlf_pool *pool = pool_of(4);
     for (int32_t job = 1; job <= 20000; job++) {
         mark m = {.job = job};
         rlf_parallel_for(pool, 3, 1, write_job, &m);
@@ -108,35 +102,19 @@ static void tiny_jobs_in_a_row_do_not_mix(void **state)
     rlf_pool_destroy(&pool);
 }
 
-static void the_version_is_that_of_the_headers(void **state)
+TEST_CASE(the_version_is_that_of_the_headers)
 {
-    (void)state;
     char version[32];
     snprintf(version, sizeof(version), "%d.%d.%d", RLF_VERSION_MAJOR, RLF_VERSION_MINOR,
              RLF_VERSION_PATCH);
     assert_string_equal(rlf_version(), version);
 }
 
-static void instruction_set_has_a_name(void **state)
+TEST_CASE(instruction_set_has_a_name)
 {
-    (void)state;
     const char *name = rlf_isa_name();
     bool is_known = strcmp(name, "AVX-512 (x86-64-v4)") == 0 || strcmp(name, "AVX2") == 0 ||
                     strcmp(name, "portable") == 0;
     assert_true(is_known);
     assert_ptr_equal(rlf_isa_name(), name);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(error_line_is_one_line),
-        cmocka_unit_test(the_version_is_that_of_the_headers),
-        cmocka_unit_test(instruction_set_has_a_name),
-        cmocka_unit_test(allocations_are_aligned_zeroed_and_counted),
-        cmocka_unit_test(failed_assertion_is_a_safe_no_op),
-        cmocka_unit_test(parallel_for_covers_the_range_once),
-        cmocka_unit_test(tiny_jobs_in_a_row_do_not_mix),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

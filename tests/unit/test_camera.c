@@ -13,9 +13,8 @@ static rlf_camera kinect2(void)
     return camera;
 }
 
-static void pinhole_ray_is_equation_4_1(void **state)
+TEST_CASE(pinhole_ray_is_equation_4_1)
 {
-    (void)state;
     rlf_camera camera = kinect2();
     rlf_vec3 ray;
     assert_true(rlf_camera_unproject(&camera, 100, 50, &ray));
@@ -26,9 +25,8 @@ static void pinhole_ray_is_equation_4_1(void **state)
     assert_false(rlf_camera_project(&camera, rlf_vec3_make(0, 0, -1), &u, &v));
 }
 
-static void distortion_round_trip_is_exact(void **state)
+TEST_CASE(distortion_round_trip_is_exact)
 {
-    (void)state;
     rlf_camera cameras[3] = {kinect2(), kinect2(), kinect2()};
     const double kinect[8] = {0.0905, -0.268, 0.001, -0.0007, 0.095};
     const double fr1[8] = {0.262383, -0.953104, -0.005358, 0.002628, 1.163314};
@@ -62,9 +60,8 @@ static void distortion_round_trip_is_exact(void **state)
     }
 }
 
-static void folded_lens_refuses_rays_beyond_the_fold(void **state)
+TEST_CASE(folded_lens_refuses_rays_beyond_the_fold)
 {
-    (void)state;
     rlf_camera camera = kinect2();
     camera.distortion_model = RLF_DISTORTION_PLUMB_BOB;
     camera.distortion[0] = -0.5; /* r (1 - r^2/2) has its maximum 0.5443 at r = 0.8165 */
@@ -76,9 +73,8 @@ static void folded_lens_refuses_rays_beyond_the_fold(void **state)
     assert_false(rlf_camera_project(&camera, rlf_vec3_make(0.83, 0, 1), &u, &v));
 }
 
-static void decimated_camera_keeps_rays(void **state)
+TEST_CASE(decimated_camera_keeps_rays)
 {
-    (void)state;
     rlf_camera camera = kinect2();
     rlf_camera grid = rlf_camera_decimate(&camera, 8);
     assert_int_equal(grid.width, 64);
@@ -89,9 +85,8 @@ static void decimated_camera_keeps_rays(void **state)
     assert_true(rlf_length(rlf_sub(full, reduced)) < 1e-15);
 }
 
-static void resized_camera_keeps_image_borders(void **state)
+TEST_CASE(resized_camera_keeps_image_borders)
 {
-    (void)state;
     rlf_camera camera = kinect2();
     rlf_camera half = rlf_camera_resize(&camera, 256, 212);
     rlf_vec3 full, reduced;
@@ -101,9 +96,8 @@ static void resized_camera_keeps_image_borders(void **state)
 }
 
 /* The matrix sends a point to the clip position of the pixel that rlf_camera_project names. */
-static void projection_matrix_matches_projection(void **state)
+TEST_CASE(projection_matrix_matches_projection)
 {
-    (void)state;
     rlf_camera camera = kinect2();
     rlf_mat4 m = rlf_camera_projection(&camera, 0.1, 100.0);
     rlf_vec3 p = rlf_vec3_make(0.4, -0.3, 2.0);
@@ -122,9 +116,8 @@ static void projection_matrix_matches_projection(void **state)
 
 /* A.1 with the vertical field of view of a centred camera is the same projection, seen with y up.
  */
-static void field_of_view_matrix_matches_intrinsics(void **state)
+TEST_CASE(field_of_view_matrix_matches_intrinsics)
 {
-    (void)state;
     rlf_camera camera = {
         .width = 512, .height = 424, .fx = 365.5, .fy = 365.5, .cx = 255.5, .cy = 211.5};
     double fov_y = 2.0 * rlf_atan2(212.0, 365.5);
@@ -137,9 +130,8 @@ static void field_of_view_matrix_matches_intrinsics(void **state)
     assert_true(fabs(a.m[2][3] - b.m[2][3]) < 1e-12);
 }
 
-static void bad_cameras_are_refused_by_field(void **state)
+TEST_CASE(bad_cameras_are_refused_by_field)
 {
-    (void)state;
     rlf_camera camera = kinect2();
     assert_int_equal(rlf_camera_check(&camera, "depth"), RLF_OK);
     camera.fy = 0;
@@ -154,19 +146,4 @@ static void bad_cameras_are_refused_by_field(void **state)
     camera = kinect2();
     camera.distortion[3] = INFINITY;
     assert_int_equal(rlf_camera_check(&camera, "depth"), RLF_ERROR_INVALID);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pinhole_ray_is_equation_4_1),
-        cmocka_unit_test(distortion_round_trip_is_exact),
-        cmocka_unit_test(folded_lens_refuses_rays_beyond_the_fold),
-        cmocka_unit_test(decimated_camera_keeps_rays),
-        cmocka_unit_test(resized_camera_keeps_image_borders),
-        cmocka_unit_test(projection_matrix_matches_projection),
-        cmocka_unit_test(field_of_view_matrix_matches_intrinsics),
-        cmocka_unit_test(bad_cameras_are_refused_by_field),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

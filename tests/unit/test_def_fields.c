@@ -210,7 +210,7 @@ typedef struct def_try {
 
 #define TRY(type, value, make)                                                                     \
     {                                                                                              \
-        #type, value, sizeof(type), fields_##type, COUNT_##type, make                              \
+#type, value, sizeof(type), fields_##type, COUNT_##type, make                              \
     }
 
 static const def_try tries[] = {
@@ -318,9 +318,8 @@ static int try_all_fields(const def_try *t)
     return wrong < 100 ? wrong : 100;
 }
 
-static void no_number_of_a_def_goes_unchecked(void **state)
+TEST_CASE(no_number_of_a_def_goes_unchecked)
 {
-    (void)state;
     int wrong = 0;
     for (size_t i = 0; i < sizeof(tries) / sizeof(tries[0]); i++) {
         fflush(NULL);
@@ -358,10 +357,4 @@ static int set_up(void **state)
     return 0;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(no_number_of_a_def_goes_unchecked),
-    };
-    return cmocka_run_group_tests(tests, set_up, NULL);
-}
+TEST_GROUP(set_up, NULL)

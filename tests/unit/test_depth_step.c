@@ -69,9 +69,8 @@ static void check_plane(const depth_step *s, const plane *p, double x, double y,
     }
 }
 
-static void a_plane_is_one_surface_at_any_slant_and_distance(void **state)
+TEST_CASE(a_plane_is_one_surface_at_any_slant_and_distance)
 {
-    (void)state;
     static const double ray[3][2] = {{0.0, 0.0}, {0.4, -0.2}, {-0.3, 0.3}};
     for (int32_t k = 0; k < SENSORS * DISTANCES * SLANTS * 8; k++) {
         const depth_step s = sensor(k % SENSORS);
@@ -89,9 +88,8 @@ static void a_plane_is_one_surface_at_any_slant_and_distance(void **state)
     }
 }
 
-static void a_missing_normal_may_be_as_steep_as_any(void **state)
+TEST_CASE(a_missing_normal_may_be_as_steep_as_any)
 {
-    (void)state;
     assert_true(depth_step_slope(0.0f, 0.0f, 0.0f, 0.1f, 0.2f) == DEPTH_STEP_STEEPEST);
     assert_true(depth_step_slope(1.0f, 0.0f, 0.0f, 0.0f, 0.0f) == DEPTH_STEP_STEEPEST);
     assert_true(depth_step_slope(0.0f, 0.0f, -1.0f, 0.3f, 0.2f) == 0.0f);
@@ -99,9 +97,8 @@ static void a_missing_normal_may_be_as_steep_as_any(void **state)
 }
 
 /* A hand's breadth, 8 cm, is a step between neighbours wherever cameras are used indoors. */
-static void a_hand_before_a_wall_is_a_step_whatever_the_slope(void **state)
+TEST_CASE(a_hand_before_a_wall_is_a_step_whatever_the_slope)
 {
-    (void)state;
     for (int32_t k = 0; k < DISTANCES && distance[k] <= 2.0; k++) {
         float z = (float)distance[k];
         for (int32_t n = 0; n < SENSORS; n++) {
@@ -113,9 +110,8 @@ static void a_hand_before_a_wall_is_a_step_whatever_the_slope(void **state)
 }
 
 /* Where the surface is known to face the camera, steps of a book's thickness are found. */
-static void what_faces_the_camera_shows_smaller_steps(void **state)
+TEST_CASE(what_faces_the_camera_shows_smaller_steps)
 {
-    (void)state;
     const depth_step s = sensor(0);
     for (int32_t k = 0; k < DISTANCES && distance[k] <= 2.0; k++) {
         float z = (float)distance[k], slope = depth_step_slope(0.5f, 0.0f, -0.866f, 0.0f, 0.0f);
@@ -123,14 +119,4 @@ static void what_faces_the_camera_shows_smaller_steps(void **state)
         assert_true(depth_step_since(&s, z, z + 0.02f));
         assert_false(depth_step_since(&s, z, z + 0.005f));
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_plane_is_one_surface_at_any_slant_and_distance),
-        cmocka_unit_test(a_missing_normal_may_be_as_steep_as_any),
-        cmocka_unit_test(a_hand_before_a_wall_is_a_step_whatever_the_slope),
-        cmocka_unit_test(what_faces_the_camera_shows_smaller_steps)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* Pixels whose depth was lost beside foreground, settled by the remembered colour of the room. */
 
 #include "environment/real_depth.h"
+#include "pinhole.h"
 #include "test.h"
 
 #include <string.h>
@@ -85,13 +86,8 @@ static int set_up(void **state)
 {
     (void)state;
     memset(&s, 0, sizeof(s));
-    s.depth_camera = (rlf_camera){.width = WIDTH, .height = HEIGHT, .fx = 100, .fy = 100};
-    s.color_camera =
-        (rlf_camera){.width = COLOR_WIDTH, .height = COLOR_HEIGHT, .fx = 150, .fy = 150};
-    s.depth_camera.cx = 0.5 * (WIDTH - 1);
-    s.depth_camera.cy = 0.5 * (HEIGHT - 1);
-    s.color_camera.cx = 0.5 * (COLOR_WIDTH - 1);
-    s.color_camera.cy = 0.5 * (COLOR_HEIGHT - 1);
+    s.depth_camera = pinhole(WIDTH, HEIGHT, 100);
+    s.color_camera = pinhole(COLOR_WIDTH, COLOR_HEIGHT, 150);
     s.T_color_depth = rlf_pose_identity();
     s.T_color_depth.p.x = -0.05;
     for (int32_t i = 0; i < PIXELS; i++) {
@@ -144,9 +140,8 @@ static int32_t count_wrong(const float *depth)
     return wrong;
 }
 
-static void the_picture_tells_which_side_a_lost_pixel_is_on(void **state)
+TEST_CASE(the_picture_tells_which_side_a_lost_pixel_is_on)
 {
-    (void)state;
     const int32_t before = count_wrong(s.sensed);
     update();
     assert_true(before > 400);
@@ -154,9 +149,8 @@ static void the_picture_tells_which_side_a_lost_pixel_is_on(void **state)
 }
 
 /* Where the colour camera sees the wall beside the leg; nearer to it the leg is in the way. */
-static void what_was_filled_from_the_near_side_is_put_back(void **state)
+TEST_CASE(what_was_filled_from_the_near_side_is_put_back)
 {
-    (void)state;
     const int32_t beside = left_of_the_leg() - 2;
     for (int32_t i = 0; i < PIXELS; i++) {
         s.sensed[i] = s.reason[i] == RLF_REASON_FILLED ? NEAR_Z : s.sensed[i];
@@ -170,9 +164,8 @@ static void what_was_filled_from_the_near_side_is_put_back(void **state)
 }
 
 /* Then the colours around decide alone. */
-static void another_exposure_forgets_the_plate(void **state)
+TEST_CASE(another_exposure_forgets_the_plate)
 {
-    (void)state;
     const int32_t before = count_wrong(s.sensed);
     paint(true, 0.6, 1.0);
     for (int32_t k = 0; k < 10; k++) {
@@ -182,9 +175,8 @@ static void another_exposure_forgets_the_plate(void **state)
 }
 
 /* A leg's shadow on the wall beside it is not the leg. */
-static void a_shadow_is_not_foreground(void **state)
+TEST_CASE(a_shadow_is_not_foreground)
 {
-    (void)state;
     paint(true, 1.0, 0.65);
     const int32_t left = left_of_the_leg();
     update();
@@ -195,23 +187,11 @@ static void a_shadow_is_not_foreground(void **state)
     }
 }
 
-static void what_is_not_needed_stays(void **state)
+TEST_CASE(what_is_not_needed_stays)
 {
-    (void)state;
     s.needed.count = 0;
     update();
     assert_memory_equal(s.settled, s.sensed, sizeof(s.settled));
 }
 
-int main(void)
-{
-#define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
-    const struct CMUnitTest tests[] = {
-        TEST(the_picture_tells_which_side_a_lost_pixel_is_on),
-        TEST(what_was_filled_from_the_near_side_is_put_back),
-        TEST(another_exposure_forgets_the_plate),
-        TEST(a_shadow_is_not_foreground),
-        TEST(what_is_not_needed_stays),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(set_up, tear_down)

@@ -35,9 +35,8 @@ static void body_color(const rlf_compositor_def *def, render_scene *s, uint8_t o
 }
 
 /* A picture half as bright as a lit room's mean halves a body; a bright one leaves it alone. */
-static void bodies_are_as_dark_as_the_picture(void **state)
+TEST_CASE(bodies_are_as_dark_as_the_picture)
 {
-    (void)state;
     render_scene *s = scene_make(3.0);
     scene_add_body(s, scene_box(0.5), rlf_vec3_make(0, 0, 1.5))->color[2] = 0.8f;
     rlf_compositor_def def = scene_def(s);
@@ -71,9 +70,8 @@ static void bodies_are_as_dark_as_the_picture(void **state)
     scene_free(s);
 }
 
-static void tint_is_limited_and_change_is_slow(void **state)
+TEST_CASE(tint_is_limited_and_change_is_slow)
 {
-    (void)state;
     render_scene *s = scene_make(3.0);
     rlf_compositor_def def = scene_def(s);
     room_light l = {.is_known = false};
@@ -99,9 +97,8 @@ static void tint_is_limited_and_change_is_slow(void **state)
     scene_free(s);
 }
 
-static void wrong_light_is_refused(void **state)
+TEST_CASE(wrong_light_is_refused)
 {
-    (void)state;
     render_scene *s = scene_make(3.0);
     const float wrong[3] = {-0.1f, 1.1f, NAN};
     for (int i = 0; i < 3; i++) {
@@ -151,9 +148,8 @@ static void light_bumps(render_scene *s, rlf_vec3 direction, double directed)
     }
 }
 
-static void shading_tells_where_the_light_is(void **state)
+TEST_CASE(shading_tells_where_the_light_is)
 {
-    (void)state;
     const rlf_vec3 lights[4] = {
         {0.3, 0.8, 0.5}, {-0.8, 0.3, 0.5}, {0.1, -0.4, 0.9}, {0.7, 0.6, -0.1}};
     render_scene *s = scene_make(3.0);
@@ -172,9 +168,8 @@ static void shading_tells_where_the_light_is(void **state)
     scene_free(s);
 }
 
-static void given_light_stays_where_nothing_tells(void **state)
+TEST_CASE(given_light_stays_where_nothing_tells)
 {
-    (void)state;
     render_scene *s = scene_make(3.0);
     rlf_compositor_def def = scene_def(s);
     light_direction l;
@@ -201,9 +196,8 @@ static void given_light_stays_where_nothing_tells(void **state)
 }
 
 /* The direction follows a light that moves without a jump. */
-static void direction_changes_slowly(void **state)
+TEST_CASE(direction_changes_slowly)
 {
-    (void)state;
     render_scene *s = scene_make(3.0);
     rlf_compositor_def def = scene_def(s);
     def.estimates_light_direction = true;
@@ -223,17 +217,4 @@ static void direction_changes_slowly(void **state)
     assert_true(rlf_dot(last, right) > 0.95);
     light_direction_destroy(&l);
     scene_free(s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bodies_are_as_dark_as_the_picture),
-        cmocka_unit_test(tint_is_limited_and_change_is_slow),
-        cmocka_unit_test(wrong_light_is_refused),
-        cmocka_unit_test(shading_tells_where_the_light_is),
-        cmocka_unit_test(given_light_stays_where_nothing_tells),
-        cmocka_unit_test(direction_changes_slowly),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

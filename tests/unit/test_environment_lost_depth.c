@@ -1,6 +1,7 @@
 /* Depth of pixels that return no light, and what is seen of virtual things there. */
 
 #include "environment/real_depth.h"
+#include "pinhole.h"
 #include "test.h"
 
 #include <string.h>
@@ -86,9 +87,7 @@ static int set_up(void **state)
     (void)state;
     memset(&s, 0, sizeof(s));
     s.seed = 7;
-    s.camera = (rlf_camera){.width = WIDTH, .height = HEIGHT, .fx = 150, .fy = 150};
-    s.camera.cx = 0.5 * (WIDTH - 1);
-    s.camera.cy = 0.5 * (HEIGHT - 1);
+    s.camera = pinhole(WIDTH, HEIGHT, 150);
     s.T_picture_depth = rlf_pose_identity();
     for (int32_t i = 0; i < PIXELS; i++) {
         s.ray_x[i] = (float)((i % WIDTH - s.camera.cx) / s.camera.fx);
@@ -125,9 +124,8 @@ static int tear_down(void **state)
 }
 
 /* A black print that returns no light belongs to what is around it, whatever its colour. */
-static void a_hole_in_a_thing_is_the_thing(void **state)
+TEST_CASE(a_hole_in_a_thing_is_the_thing)
 {
-    (void)state;
     sense(0);
     for (int32_t i = 0; i < PIXELS; i++) {
         if (is_disc(i, 14.0)) {
@@ -139,9 +137,8 @@ static void a_hole_in_a_thing_is_the_thing(void **state)
 }
 
 /* Between two surfaces each pixel goes the way of its colours. */
-static void colours_part_a_band_without_depth(void **state)
+TEST_CASE(colours_part_a_band_without_depth)
 {
-    (void)state;
     sense(0);
     int32_t lost = 0;
     for (int32_t i = 0; i < PIXELS; i++) {
@@ -154,9 +151,8 @@ static void colours_part_a_band_without_depth(void **state)
 }
 
 /* Of a camera that has no depth there, 12 columns wide; a thing goes on up to the border. */
-static void a_thing_goes_on_into_the_rim(void **state)
+TEST_CASE(a_thing_goes_on_into_the_rim)
 {
-    (void)state;
     sense(60);
     for (int32_t i = 0; i < PIXELS; i++) {
         if (i % WIDTH < 12) {
@@ -167,9 +163,8 @@ static void a_thing_goes_on_into_the_rim(void **state)
 }
 
 /* A floor that goes down to the lower border, and is not seen in its last 12 rows. */
-static void a_plane_goes_on_into_the_rim(void **state)
+TEST_CASE(a_plane_goes_on_into_the_rim)
 {
-    (void)state;
     static float up[PIXELS];
     sense(0);
     for (int32_t i = 0; i < PIXELS; i++) {
@@ -188,9 +183,8 @@ static void a_plane_goes_on_into_the_rim(void **state)
 }
 
 /* Someone before a void that returns nothing does not fill it. */
-static void a_void_is_not_filled(void **state)
+TEST_CASE(a_void_is_not_filled)
 {
-    (void)state;
     sense(0);
     for (int32_t i = 0; i < PIXELS; i++) {
         s.truth[i] = is_disc(i, 30.0) ? NEAR_Z : 0.0f;
@@ -205,9 +199,8 @@ static void a_void_is_not_filled(void **state)
 
 /* A void whose colours come and go about those of the thing: there is no depth in it here and not
  * there. */
-static void a_void_of_like_colours_has_no_specks(void **state)
+TEST_CASE(a_void_of_like_colours_has_no_specks)
 {
-    (void)state;
     int32_t changes = 0;
     sense(0);
     for (int32_t i = 0; i < PIXELS; i++) {
@@ -231,9 +224,8 @@ static float shown_depth(int32_t i)
 }
 
 /* As light in stripes has it: beside an edge depth comes and goes, and edges shift by a pixel. */
-static void nothing_flickers_while_nothing_moves(void **state)
+TEST_CASE(nothing_flickers_while_nothing_moves)
 {
-    (void)state;
     static float before[PIXELS];
     const rlf_plane_u8 no_state = {NULL, WIDTH, HEIGHT, WIDTH};
     int32_t changes = 0;
@@ -262,17 +254,4 @@ static void nothing_flickers_while_nothing_moves(void **state)
     assert_true(changes <= 30 * 5 * PIXELS / 76800);
 }
 
-int main(void)
-{
-#define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
-    const struct CMUnitTest tests[] = {
-        TEST(a_hole_in_a_thing_is_the_thing),
-        TEST(colours_part_a_band_without_depth),
-        TEST(a_thing_goes_on_into_the_rim),
-        TEST(a_plane_goes_on_into_the_rim),
-        TEST(a_void_is_not_filled),
-        TEST(a_void_of_like_colours_has_no_specks),
-        TEST(nothing_flickers_while_nothing_moves),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(set_up, tear_down)

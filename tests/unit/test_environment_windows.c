@@ -6,9 +6,8 @@
 
 #define NEAREST_M 2.0
 
-static void windows_that_meet_grow_together(void **state)
+TEST_CASE(windows_that_meet_grow_together)
 {
-    (void)state;
     const pixel_rect given[3] = {{0, 0, 100, 80}, {400, 0, 500, 80}, {90, 70, 200, 150}};
     real_windows windows = {.count = 0};
     for (int i = 0; i < 3; i++) {
@@ -20,9 +19,8 @@ static void windows_that_meet_grow_together(void **state)
     assert_memory_equal(&windows.window[1], &given[1], sizeof(both));
 }
 
-static void there_are_never_too_many(void **state)
+TEST_CASE(there_are_never_too_many)
 {
-    (void)state;
     real_windows windows = {.count = 0};
     for (int i = 0; i < 2 * REAL_WINDOWS_MOST; i++) {
         const pixel_rect one = {50 * i, 0, 50 * i + 20, 20};
@@ -79,19 +77,8 @@ static int32_t compare_to_whole(int32_t gap)
     return windows.count;
 }
 
-static void windows_hold_what_the_whole_would(void **state)
+TEST_CASE(windows_hold_what_the_whole_would)
 {
-    (void)state;
     assert_int_equal(compare_to_whole(150), 2);
     assert_int_equal(compare_to_whole(10), 1); /* one is drawn into what the other needs */
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(windows_that_meet_grow_together),
-        cmocka_unit_test(there_are_never_too_many),
-        cmocka_unit_test(windows_hold_what_the_whole_would),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,8 @@
 /* Hands found in drawn surfaces: palms, tips, gestures, ids, and what is no hand. */
 #include "hand_scene.h"
+#include "test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
-#include <cmocka.h>
 
 #define FRAME_NS INT64_C(33333333)
 
@@ -115,9 +112,8 @@ static void check_tips(const rlf_hand *h, const scene_hand *truth, double tolera
     }
 }
 
-static void test_open_hand(void **state)
+TEST_CASE(test_open_hand)
 {
-    (void)state;
     for (int turn = 0; turn < 8; turn++) {
         bench b = bench_create();
         scene_hand h = {.palm = {0.02, -0.03, 0.9},
@@ -140,9 +136,8 @@ static void test_open_hand(void **state)
     }
 }
 
-static void test_gestures(void **state)
+TEST_CASE(test_gestures)
 {
-    (void)state;
     static const struct {
         int fingers;
         rlf_gesture gesture;
@@ -199,9 +194,8 @@ static void draw_person(hand_scene *s, double x, double z, scene_hand *hands)
 }
 
 /* Two people at 2.4 m have four hands; heads and feet are none. */
-static void test_people(void **state)
+TEST_CASE(test_people)
 {
-    (void)state;
     bench b = bench_create();
     scene_hand hands[4];
     const rlf_hands *out = NULL;
@@ -256,9 +250,8 @@ static int count_low(const rlf_hands *out, double least_y)
 }
 
 /* Who stands has two hands and no more. Where down is not known, a foot is taken for one. */
-static void test_feet(void **state)
+TEST_CASE(test_feet)
 {
-    (void)state;
     const rlf_vec3 downs[2] = {{0, 2.5, 0}, {0, 0, 0}};
     for (int n = 0; n < 2; n++) {
         bench b = bench_create();
@@ -284,9 +277,8 @@ static void test_feet(void **state)
 }
 
 /* An arm that points at the camera hides its shoulder: it hangs in front of the body. */
-static void test_arm_forward(void **state)
+TEST_CASE(test_arm_forward)
 {
-    (void)state;
     bench b = bench_create();
     const rlf_hands *out = NULL;
     rlf_vec3 palm = {0.1, -0.2, 1.3};
@@ -320,9 +312,8 @@ static void mix_edges(hand_scene *s)
     }
 }
 
-static void test_fist_with_mixed_edges(void **state)
+TEST_CASE(test_fist_with_mixed_edges)
 {
-    (void)state;
     bench b = bench_create();
     scene_hand h = {.palm = {0.0, 0.75, 2.4}, .turn = 0.1, .arm = 0.8};
     const rlf_hands *out = NULL;
@@ -343,9 +334,8 @@ static void test_fist_with_mixed_edges(void **state)
 }
 
 /* A pinch is told by its fingers: what is 70 mm behind it does not matter. */
-static void test_pinch_before_a_wall(void **state)
+TEST_CASE(test_pinch_before_a_wall)
 {
-    (void)state;
     bench b = bench_create();
     b.wall = 0.87;
     scene_hand h = {.palm = {0.0, 0.0, 0.8}, .turn = 0.3, .fingers = FINGERS_RING, .arm = 0.7};
@@ -356,9 +346,8 @@ static void test_pinch_before_a_wall(void **state)
 }
 
 /* A leg from below with its shoe, a head from above, a chair's back and leg, a ball in the air. */
-static void test_no_hands(void **state)
+TEST_CASE(test_no_hands)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         bench b = bench_create();
         const rlf_hands *out = NULL;
@@ -402,9 +391,8 @@ static void test_no_hands(void **state)
 /* Six hands that leave by all borders, held together, with rods in them: nothing but finite
  * numbers.
  */
-static void test_many_and_leaving(void **state)
+TEST_CASE(test_many_and_leaving)
 {
-    (void)state;
     bench b = bench_create();
     for (int k = 0; k < 24; k++) {
         b.time_ns += FRAME_NS;
@@ -427,9 +415,8 @@ static void test_many_and_leaving(void **state)
 }
 
 /* Two arms from below; they cross the picture, keep their ids, and nothing is allocated. */
-static void test_follows(void **state)
+TEST_CASE(test_follows)
 {
-    (void)state;
     bench b = bench_create();
     scene_hand h[2] = {{.palm = {-0.25, 0.1, 0.9}, .turn = 0.2, .fingers = FINGERS_ALL, .arm = 0.8},
                        {.palm = {0.25, 0.1, 1.0}, .turn = -0.2, .fingers = 0, .arm = 0.8}};
@@ -495,9 +482,8 @@ static void move_hand(rlf_vec3 way, int times, int frames, int counts[RLF_HAND_E
     bench_destroy(&b);
 }
 
-static void test_motions(void **state)
+TEST_CASE(test_motions)
 {
-    (void)state;
     int n[RLF_HAND_EVENT_COUNT];
     move_hand(rlf_vec3_make(0.4, 0, 0), 1, 10, n);
     assert_int_equal(n[RLF_HAND_EVENT_SWIPE_RIGHT], 1);
@@ -517,9 +503,8 @@ static void test_motions(void **state)
 }
 
 /* The same frames give the same bits; a tracker that was reset is as a new one. */
-static void test_same_bits(void **state)
+TEST_CASE(test_same_bits)
 {
-    (void)state;
     bench a = bench_create(), b = bench_create();
     scene_hand h = {.palm = {0.1, 0.0, 0.8}, .turn = 0.5, .fingers = FINGERS_ALL, .arm = 0.8};
     show_for(&b, &h, 1, 3);
@@ -537,9 +522,8 @@ static void test_same_bits(void **state)
     bench_destroy(&b);
 }
 
-static void test_empty_and_odd(void **state)
+TEST_CASE(test_empty_and_odd)
 {
-    (void)state;
     bench b = bench_create();
     scene_clear(b.scene, 0.0, 5); /* no depth at all */
     assert_int_equal(rlf_hand_tracker_update(b.tracker, &b.scene->surface)->count, 0);
@@ -563,9 +547,8 @@ static void test_empty_and_odd(void **state)
     assert_null(tracker);
 }
 
-static void test_names(void **state)
+TEST_CASE(test_names)
 {
-    (void)state;
     for (int k = 0; k < RLF_HAND_EVENT_COUNT; k++) {
         rlf_hand_event_kind kind = RLF_HAND_EVENT_COUNT;
         assert_true(rlf_hand_event_parse(rlf_hand_event_name((rlf_hand_event_kind)k), &kind));
@@ -576,25 +559,4 @@ static void test_names(void **state)
     assert_int_equal(kind, RLF_HAND_EVENT_WAVE);
     assert_string_equal(rlf_gesture_name(RLF_GESTURE_FIST), "fist");
     assert_null(rlf_gesture_name((rlf_gesture)9));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_open_hand),
-        cmocka_unit_test(test_gestures),
-        cmocka_unit_test(test_fist_with_mixed_edges),
-        cmocka_unit_test(test_pinch_before_a_wall),
-        cmocka_unit_test(test_people),
-        cmocka_unit_test(test_feet),
-        cmocka_unit_test(test_arm_forward),
-        cmocka_unit_test(test_no_hands),
-        cmocka_unit_test(test_many_and_leaving),
-        cmocka_unit_test(test_follows),
-        cmocka_unit_test(test_motions),
-        cmocka_unit_test(test_same_bits),
-        cmocka_unit_test(test_empty_and_odd),
-        cmocka_unit_test(test_names),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -55,9 +55,8 @@ static const struct {
              {"o3d.json", "o3d_depth.json,%s/o3d_color.json", "o3d.json"},
              {"m.cameramodel", "m_depth.cameramodel,%s/m_color.cameramodel", "m.cameramodel"}};
 
-static void every_format_comes_back(void **state)
+TEST_CASE(every_format_comes_back)
 {
-    (void)state;
     for (int pair = 0; pair < 2; pair++) {
         for (int f = RLF_RIG_RELIEF; f <= RLF_RIG_MRCAL; f++) {
             const rlf_rig rig = a_rig(pair == 1);
@@ -125,9 +124,8 @@ static const char xml[] =
     "<data>0.1 -0.2 0. 0. 0.05</data></distortion_coefficients>\n<image_points><_>1. 2.</_>"
     "<_>3. 4.</_></image_points>\n</opencv_storage>\n";
 
-static void texts_of_other_programs_are_read(void **state)
+TEST_CASE(texts_of_other_programs_are_read)
 {
-    (void)state;
     const char *const texts[] = {echo, opencv, mrcal, xml};
     for (int i = 0; i < 4; i++) {
         rlf_rig rig;
@@ -150,9 +148,8 @@ static void texts_of_other_programs_are_read(void **state)
     "  T_cn_cnm1:\n  - [0.0, -1.0, 0.0, -0.11]\n  - [1.0, 0.0, 0.0, 0.02]\n"                       \
     "  - [0.0, 0.0, 1.0, 0.0]\n  - [0.0, 0.0, 0.0, 1.0]\n"
 
-static void a_chain_of_kalibr_is_read(void **state)
+TEST_CASE(a_chain_of_kalibr_is_read)
 {
-    (void)state;
     rlf_rig rig;
     test_log log = {0};
     rlf_set_log(test_log_line, &log);
@@ -179,9 +176,8 @@ static void a_chain_of_kalibr_is_read(void **state)
 }
 
 /* K is of the whole picture. */
-static void a_window_of_ros_is_applied(void **state)
+TEST_CASE(a_window_of_ros_is_applied)
 {
-    (void)state;
     rlf_rig rig;
     const char text[] = "height: 480\nwidth: 640\nk: [525, 0, 319.5, 0, 525, 239.5, 0, 0, 1]\n"
                         "d: []\nbinning_x: 2\nbinning_y: 2\nroi:\n  x_offset: 64\n  y_offset: 0\n"
@@ -192,9 +188,8 @@ static void a_window_of_ros_is_applied(void **state)
 }
 
 /* ROS tells the baseline of a rectified pair in P. */
-static void a_rectified_pair_of_ros_has_its_baseline(void **state)
+TEST_CASE(a_rectified_pair_of_ros_has_its_baseline)
 {
-    (void)state;
     static const char text[] =
         "image_width: 64\nimage_height: 48\nK: [60, 0, 31, 0, 60, 23, 0, 0, 1]\n"
         "R: [1, 0, 0, 0, 1, 0, 0, 0, 1]\nP: [50, 0, 31, %s, 0, 50, 23, 0, 0, 0, 1, 0]\n";
@@ -271,9 +266,8 @@ static const struct {
     {"a.json", "{\"intrinsic_matrix\": [1, 2]}", RLF_ERROR_INVALID, "intrinsic_matrix has 2"},
 };
 
-static void what_does_not_fit_is_refused_with_a_reason(void **state)
+TEST_CASE(what_does_not_fit_is_refused_with_a_reason)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof(refused) / sizeof(refused[0]); i++) {
         rlf_rig rig;
         const rlf_result result = load_text(refused[i].name, refused[i].text, &rig);
@@ -285,9 +279,8 @@ static void what_does_not_fit_is_refused_with_a_reason(void **state)
 }
 
 /* Cut anywhere, and with any byte in any place: a value or an error, never a crash. */
-static void damaged_texts_do_no_harm(void **state)
+TEST_CASE(damaged_texts_do_no_harm)
 {
-    (void)state;
     static const char bytes[] = "\0[]{}:,'\"#-!\n &\xff";
     const char *const texts[] = {echo, opencv, mrcal, xml};
     for (int t = 0; t < 4; t++) {
@@ -312,16 +305,4 @@ static void damaged_texts_do_no_harm(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_format_comes_back),
-        cmocka_unit_test(texts_of_other_programs_are_read),
-        cmocka_unit_test(a_chain_of_kalibr_is_read),
-        cmocka_unit_test(a_window_of_ros_is_applied),
-        cmocka_unit_test(a_rectified_pair_of_ros_has_its_baseline),
-        cmocka_unit_test(what_does_not_fit_is_refused_with_a_reason),
-        cmocka_unit_test(damaged_texts_do_no_harm),
-    };
-    return cmocka_run_group_tests(tests, test_folder_make, test_folder_remove);
-}
+TEST_GROUP(test_folder_make, test_folder_remove)

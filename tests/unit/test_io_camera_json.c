@@ -18,9 +18,8 @@ static rlf_result parse(const char *text, rlf_rig *rig, double *units)
     return io_rig_parse(&file, rig, units);
 }
 
-static void smallest_file_gets_the_defaults(void **state)
+TEST_CASE(smallest_file_gets_the_defaults)
 {
-    (void)state;
     rlf_rig rig;
     double units = 0;
     assert_int_equal(parse("{\"depth\":" DEPTH "}", &rig, &units), RLF_OK);
@@ -38,9 +37,8 @@ static void smallest_file_gets_the_defaults(void **state)
 }
 
 /* What may be said of a camera gives settings that may be used. */
-static void the_farthest_range_can_be_run(void **state)
+TEST_CASE(the_farthest_range_can_be_run)
 {
-    (void)state;
     rlf_rig rig;
     double units = 0;
     assert_int_equal(parse("{\"depth\":{" SIZE LENS
@@ -57,9 +55,8 @@ static void the_farthest_range_can_be_run(void **state)
     }
 }
 
-static void every_key_is_read(void **state)
+TEST_CASE(every_key_is_read)
 {
-    (void)state;
     rlf_rig rig;
     double units = 0;
     assert_int_equal(
@@ -168,9 +165,8 @@ static const broken broken_files[] = {
      RLF_ERROR_INVALID, "depth_to_color.translation is -52", "not millimetres"},
 };
 
-static void broken_files_are_refused_with_one_clear_line(void **state)
+TEST_CASE(broken_files_are_refused_with_one_clear_line)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof(broken_files) / sizeof(broken_files[0]); i++) {
         rlf_rig rig = {.depth_min_m = -7};
         double units = -7;
@@ -180,9 +176,8 @@ static void broken_files_are_refused_with_one_clear_line(void **state)
     }
 }
 
-static void misspelt_keys_are_told(void **state)
+TEST_CASE(misspelt_keys_are_told)
 {
-    (void)state;
     test_log log = {0};
     rlf_set_log(test_log_line, &log);
     rlf_rig rig;
@@ -194,9 +189,8 @@ static void misspelt_keys_are_told(void **state)
     assert_non_null(strstr(log.last, "depth_to_colour"));
 }
 
-static void load_reads_the_file_and_names_it(void **state)
+TEST_CASE(load_reads_the_file_and_names_it)
 {
-    (void)state;
     rlf_rig rig;
     double units;
     test_write_text("camera.json", "{\"depth\":" DEPTH "}");
@@ -208,15 +202,4 @@ static void load_reads_the_file_and_names_it(void **state)
                       "not a regular file", "file");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(smallest_file_gets_the_defaults),
-        cmocka_unit_test(the_farthest_range_can_be_run),
-        cmocka_unit_test(every_key_is_read),
-        cmocka_unit_test(broken_files_are_refused_with_one_clear_line),
-        cmocka_unit_test(misspelt_keys_are_told),
-        cmocka_unit_test(load_reads_the_file_and_names_it),
-    };
-    return cmocka_run_group_tests(tests, test_folder_make, test_folder_remove);
-}
+TEST_GROUP(test_folder_make, test_folder_remove)

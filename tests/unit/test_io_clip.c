@@ -65,9 +65,8 @@ static rlf_source *open_clip(reader *r)
     return source;
 }
 
-static void lost_doubled_and_unpaired_frames_are_counted(void **state)
+TEST_CASE(lost_doubled_and_unpaired_frames_are_counted)
 {
-    (void)state;
     reader r = {.damaged_color = -1};
     rlf_source *source = open_clip(&r);
     const rlf_source_info *info = rlf_source_get_info(source);
@@ -95,9 +94,8 @@ static void lost_doubled_and_unpaired_frames_are_counted(void **state)
     assert_int_equal(r.destroyed, 1);
 }
 
-static void a_seek_says_that_the_frame_does_not_follow(void **state)
+TEST_CASE(a_seek_says_that_the_frame_does_not_follow)
 {
-    (void)state;
     reader r = {.damaged_color = -1};
     rlf_source *source = open_clip(&r);
     rlf_frame frame;
@@ -125,9 +123,8 @@ static void keep_line(void *context, rlf_log_level level, const char *text)
     (void)snprintf(lines->last, sizeof(lines->last), "%s", text);
 }
 
-static void a_damaged_frame_is_left_out_and_told(void **state)
+TEST_CASE(a_damaged_frame_is_left_out_and_told)
 {
-    (void)state;
     reader r = {.damaged = 1, .damaged_end = 3, .damaged_color = 2};
     log_lines lines = {0};
     rlf_set_log(keep_line, &lines);
@@ -150,9 +147,8 @@ static void a_damaged_frame_is_left_out_and_told(void **state)
     rlf_set_log(NULL, NULL);
 }
 
-static void a_clip_that_cannot_be_read_fails(void **state)
+TEST_CASE(a_clip_that_cannot_be_read_fails)
 {
-    (void)state;
     rlf_set_log(NULL, NULL);
     reader r = {.damaged = 0, .damaged_end = 6, .damaged_color = -1};
     rlf_frame frame;
@@ -162,9 +158,8 @@ static void a_clip_that_cannot_be_read_fails(void **state)
     rlf_source_destroy(&source);
 }
 
-static void times_beyond_all_reason_are_refused(void **state)
+TEST_CASE(times_beyond_all_reason_are_refused)
 {
-    (void)state;
     static const int64_t times[][2] = {{INT64_MIN, INT64_MAX}, {0, INT64_MAX}, {INT64_MIN, 0}};
     static const int64_t good[2] = {-RLF_TIME_MAX_NS, RLF_TIME_MAX_NS};
     for (int i = 0; i < 6; i++) {
@@ -188,9 +183,8 @@ static void times_beyond_all_reason_are_refused(void **state)
 }
 
 /* Not this picture or that: the disk, or the whole folder. */
-static void ten_damaged_frames_in_a_row_end_the_clip(void **state)
+TEST_CASE(ten_damaged_frames_in_a_row_end_the_clip)
 {
-    (void)state;
     reader r = {.damaged = 2, .damaged_end = 12, .damaged_color = -1};
     int64_t times[20];
     for (int i = 0; i < 20; i++) {
@@ -220,9 +214,8 @@ static void ten_damaged_frames_in_a_row_end_the_clip(void **state)
     }
 }
 
-static void addresses_are_taken_apart(void **state)
+TEST_CASE(addresses_are_taken_apart)
 {
-    (void)state;
     io_address a;
     assert_int_equal(io_address_parse("openni2:1d27?mode=640x480&aligned=1", &a), RLF_OK);
     assert_string_equal(a.scheme, "openni2");
@@ -240,18 +233,4 @@ static void addresses_are_taken_apart(void **state)
     memset(text, 'x', sizeof(text));
     text[sizeof(text) - 1] = '\0';
     assert_int_equal(io_address_parse(text, &a), RLF_ERROR_INVALID);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lost_doubled_and_unpaired_frames_are_counted),
-        cmocka_unit_test(a_seek_says_that_the_frame_does_not_follow),
-        cmocka_unit_test(a_damaged_frame_is_left_out_and_told),
-        cmocka_unit_test(a_clip_that_cannot_be_read_fails),
-        cmocka_unit_test(ten_damaged_frames_in_a_row_end_the_clip),
-        cmocka_unit_test(times_beyond_all_reason_are_refused),
-        cmocka_unit_test(addresses_are_taken_apart),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

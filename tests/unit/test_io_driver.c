@@ -28,9 +28,8 @@ static bool load(const char *library, const char *first, const char *second, boo
     return problem == NULL;
 }
 
-static void loads_libraries(void **state)
+TEST_CASE(loads_libraries)
 {
-    (void)state;
     table t = {0};
     char reason[160];
     assert_true(load("libm.so.6", "cos", "no_such_function", true, &t, reason));
@@ -44,9 +43,8 @@ static void loads_libraries(void **state)
 }
 
 /* dlopen would map it and end the program. */
-static void a_library_cut_short_is_refused(void **state)
+TEST_CASE(a_library_cut_short_is_refused)
 {
-    (void)state;
     static char part[8192];
     table t = {0};
     char reason[160];
@@ -62,9 +60,8 @@ static void a_library_cut_short_is_refused(void **state)
     remove("./cut-driver.so");
 }
 
-static void counts_frames(void **state)
+TEST_CASE(counts_frames)
 {
-    (void)state;
     io_live_count c = {.interval_ns = 33};
     const uint64_t numbers[] = {7, 8, 8, 11, 2, 3};
     const int64_t times[] = {100, 133, 133, 232, 50, 83};
@@ -93,9 +90,8 @@ static void counts_frames(void **state)
     assert_int_equal(t.doubled, 1);
 }
 
-static void reads_modes(void **state)
+TEST_CASE(reads_modes)
 {
-    (void)state;
     const char *const good[] = {"640x480", "640x480@30", "16384x1@9999"};
     const char *const bad[] = {"",         "640",        "x480",    "640x480@",     "640x480@0",
                                "-1x480",   "640x-1",     "16385x1", "640x480@30x",  "640 x480",
@@ -116,9 +112,8 @@ static void reads_modes(void **state)
     assert_int_equal(mode.width, 16384); /* left alone */
 }
 
-static void checks_transforms(void **state)
+TEST_CASE(checks_transforms)
 {
-    (void)state;
     const float turn[9] = {0, -1, 0, 1, 0, 0, 0, 0, 1};
     const float mirror[9] = {-1, 0, 0, 0, 1, 0, 0, 0, 1};
     const float zero[9] = {0};
@@ -134,9 +129,8 @@ static void checks_transforms(void **state)
 }
 
 /* A plumb_bob lens is found again exactly; one that no sample determines is refused. */
-static void fits_lenses(void **state)
+TEST_CASE(fits_lenses)
 {
-    (void)state;
     const rlf_camera lens = {.width = 640,
                              .height = 480,
                              .fx = 500,
@@ -160,14 +154,4 @@ static void fits_lenses(void **state)
     }
     assert_true(isinf(io_lens_fit(samples, 1, &fitted)));
     assert_int_equal(fitted.distortion_model, RLF_DISTORTION_NONE);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(loads_libraries),   cmocka_unit_test(a_library_cut_short_is_refused),
-        cmocka_unit_test(counts_frames),     cmocka_unit_test(reads_modes),
-        cmocka_unit_test(checks_transforms), cmocka_unit_test(fits_lenses),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

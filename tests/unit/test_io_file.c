@@ -11,9 +11,8 @@
 #include "io_support.h"
 
 /* Whoever waits for a pipe that nobody writes to waits for ever. */
-static void pipes_are_refused_at_once(void **state)
+TEST_CASE(pipes_are_refused_at_once)
 {
-    (void)state;
     static const char *const names[] = {"clip/depth.txt", "clip/camera.json",
                                         "p.json",         "p.obj",
                                         "p.gltf",         "p.png",
@@ -48,9 +47,8 @@ static void pipes_are_refused_at_once(void **state)
     alarm(0);
 }
 
-static void some_bytes_are_read_anywhere(void **state)
+TEST_CASE(some_bytes_are_read_anywhere)
 {
-    (void)state;
     test_write_text("ten", "0123456789");
     io_file file;
     char text[8] = "";
@@ -67,9 +65,8 @@ static void some_bytes_are_read_anywhere(void **state)
 }
 
 /* A link in the place of the part that is being written leads nowhere. */
-static void a_part_follows_no_link(void **state)
+TEST_CASE(a_part_follows_no_link)
 {
-    (void)state;
     test_write_text("victim", "mine");
     assert_int_equal(symlink("victim", test_path("out.part")), 0);
     assert_int_equal(rlf_file_write(test_path("out"), "new", 3), RLF_OK);
@@ -83,9 +80,8 @@ static void a_part_follows_no_link(void **state)
 }
 
 /* Each has a part of its own, and the last to end gives the file its content. */
-static void two_writers_do_not_mix(void **state)
+TEST_CASE(two_writers_do_not_mix)
 {
-    (void)state;
     io_out_file a, b;
     assert_int_equal(io_out_open(&a, test_path("both")), RLF_OK);
     assert_int_equal(io_out_open(&b, test_path("both")), RLF_OK);
@@ -102,9 +98,8 @@ static void two_writers_do_not_mix(void **state)
     assert_false(test_exists(b.part));
 }
 
-static void a_file_written_in_place_has_one_writer(void **state)
+TEST_CASE(a_file_written_in_place_has_one_writer)
 {
-    (void)state;
     int first, second;
     test_write_text("log", "older and longer");
     assert_int_equal(io_out_open_in_place(test_path("log"), &first), RLF_OK);
@@ -121,9 +116,8 @@ static void a_file_written_in_place_has_one_writer(void **state)
 }
 
 /* Names come from files and go to terminals. */
-static void error_lines_have_no_control_characters(void **state)
+TEST_CASE(error_lines_have_no_control_characters)
 {
-    (void)state;
     test_log log = {0};
     rlf_set_log(test_log_line, &log);
     rlf_fail(RLF_ERROR_IO, "%s: is\nnot\there", "a\x1b[31m\x07\x7f");
@@ -134,9 +128,8 @@ static void error_lines_have_no_control_characters(void **state)
 }
 
 /* Not why it cannot be looked at afterwards. */
-static void a_folder_that_cannot_be_made_says_why(void **state)
+TEST_CASE(a_folder_that_cannot_be_made_says_why)
 {
-    (void)state;
     assert_int_equal(rlf_make_folder(test_path("shut")), RLF_OK);
     assert_int_equal(chmod(test_folder, 0755), 0);
     assert_int_equal(chmod(test_path("shut"), 0555), 0);
@@ -147,16 +140,4 @@ static void a_folder_that_cannot_be_made_says_why(void **state)
     test_expect_error(result, RLF_ERROR_IO, "shut/log", "Permission denied", "choose a place");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pipes_are_refused_at_once),
-        cmocka_unit_test(some_bytes_are_read_anywhere),
-        cmocka_unit_test(a_part_follows_no_link),
-        cmocka_unit_test(two_writers_do_not_mix),
-        cmocka_unit_test(a_file_written_in_place_has_one_writer),
-        cmocka_unit_test(error_lines_have_no_control_characters),
-        cmocka_unit_test(a_folder_that_cannot_be_made_says_why),
-    };
-    return cmocka_run_group_tests(tests, test_folder_make, test_folder_remove);
-}
+TEST_GROUP(test_folder_make, test_folder_remove)

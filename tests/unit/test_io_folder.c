@@ -70,9 +70,8 @@ static void expect_open_error(rlf_result wanted, const char *file, const char *p
     assert_null(source);
 }
 
-static void frames_come_in_order_with_the_nearest_color(void **state)
+TEST_CASE_WITH(frames_come_in_order_with_the_nearest_color, make_clip, test_folder_remove)
 {
-    (void)state;
     rlf_source *source = open_clip();
     const rlf_source_info *info = rlf_source_get_info(source);
     assert_int_equal(info->frame_count, 5);
@@ -111,9 +110,8 @@ static void frames_come_in_order_with_the_nearest_color(void **state)
     rlf_source_destroy(&source);
 }
 
-static void frames_allocate_nothing(void **state)
+TEST_CASE_WITH(frames_allocate_nothing, make_clip, test_folder_remove)
 {
-    (void)state;
     rlf_source *source = open_clip();
     rlf_frame frame;
     assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
@@ -124,9 +122,8 @@ static void frames_allocate_nothing(void **state)
     rlf_source_destroy(&source);
 }
 
-static void times_that_go_back_are_sorted_with_a_warning(void **state)
+TEST_CASE_WITH(times_that_go_back_are_sorted_with_a_warning, make_clip, test_folder_remove)
 {
-    (void)state;
     test_write_text("depth.txt", "0.2 d2.png\n0.1 d1.png\n0.1 d0.png\n");
     test_log log = {0};
     rlf_set_log(test_log_line, &log);
@@ -146,9 +143,8 @@ static void times_that_go_back_are_sorted_with_a_warning(void **state)
     rlf_source_destroy(&source);
 }
 
-static void unix_times_keep_their_nanoseconds(void **state)
+TEST_CASE(unix_times_keep_their_nanoseconds)
 {
-    (void)state;
     const char text[] = "\xEF\xBB\xBF"
                         "1305031229.528784123 a\n1305031229.5287841239 b\n.5 c\n7 d e \n";
     io_bytes file = {"depth.txt", (const uint8_t *)text, strlen(text)};
@@ -168,9 +164,8 @@ static void unix_times_keep_their_nanoseconds(void **state)
 }
 
 /* depth.txt of three pictures, with a value for each: whose unit, in units per second, is found. */
-static void other_units_are_understood(void **state)
+TEST_CASE(other_units_are_understood)
 {
-    (void)state;
     static const struct {
         const char *times[3];
         int64_t first_ns, last_ns; /* -1 = refused */
@@ -239,9 +234,8 @@ static void other_units_are_understood(void **state)
     }
 }
 
-static void broken_lists_are_refused(void **state)
+TEST_CASE_WITH(broken_lists_are_refused, make_clip, test_folder_remove)
 {
-    (void)state;
     const struct {
         const char *text, *part, *cure;
     } lists[] = {
@@ -266,9 +260,8 @@ static void broken_lists_are_refused(void **state)
 }
 
 /* Before memory is asked for a camera that is many times as large as its pictures. */
-static void the_camera_has_the_size_of_its_pictures(void **state)
+TEST_CASE_WITH(the_camera_has_the_size_of_its_pictures, make_clip, test_folder_remove)
 {
-    (void)state;
     test_write_text(
         "camera.json",
         "{\"depth\":{\"width\":4096,\"height\":4096,\"fx\":3000,\"fy\":3000,\"cx\":2048,"
@@ -277,9 +270,8 @@ static void the_camera_has_the_size_of_its_pictures(void **state)
                       "correct camera.json");
 }
 
-static void missing_and_broken_camera_json(void **state)
+TEST_CASE_WITH(missing_and_broken_camera_json, make_clip, test_folder_remove)
 {
-    (void)state;
     test_write_text("camera.json", "{}");
     expect_open_error(RLF_ERROR_INVALID, "camera.json", "depth is missing", "intrinsics");
     remove(test_path("camera.json"));
@@ -287,9 +279,8 @@ static void missing_and_broken_camera_json(void **state)
                       "?camera=FILE");
 }
 
-static void broken_color_list_is_refused(void **state)
+TEST_CASE_WITH(broken_color_list_is_refused, make_clip, test_folder_remove)
 {
-    (void)state;
     test_write_text("rgb.txt", "zero c0.png\n");
     expect_open_error(RLF_ERROR_FORMAT, "rgb.txt:1", "time in seconds", "SECONDS FILE");
 }
@@ -321,9 +312,8 @@ static void expect_second_left_out(const char *file, const char *part, const cha
     rlf_set_log(NULL, NULL);
 }
 
-static void bad_depth_picture_in_the_middle(void **state)
+TEST_CASE_WITH(bad_depth_picture_in_the_middle, make_clip, test_folder_remove)
 {
-    (void)state;
     write_depth("d1.png", 1, H, W);
     expect_second_left_out("d1.png", "8 x 16 but camera.json says 16 x 8", "camera.json");
     test_write("d1.png", "", 0);
@@ -342,9 +332,8 @@ static void bad_depth_picture_in_the_middle(void **state)
 }
 
 /* The clip's size is what most of its pictures say. */
-static void a_bad_first_picture_is_left_out(void **state)
+TEST_CASE_WITH(a_bad_first_picture_is_left_out, make_clip, test_folder_remove)
 {
-    (void)state;
     write_depth("d0.png", 1, H, W);
     rlf_source *source = open_clip();
     rlf_frame frame;
@@ -353,9 +342,8 @@ static void a_bad_first_picture_is_left_out(void **state)
     rlf_source_destroy(&source);
 }
 
-static void nothing_that_can_be_read_is_an_error(void **state)
+TEST_CASE_WITH(nothing_that_can_be_read_is_an_error, make_clip, test_folder_remove)
 {
-    (void)state;
     const char *const names[5] = {"d0.png", "d1.png", "d2.png", "d3.png", "d 4.png"};
     for (int i = 0; i < 5; i++) {
         write_color(names[i], 3);
@@ -388,9 +376,8 @@ static void expect_second_without_color(const char *file, const char *part, cons
     rlf_set_log(NULL, NULL);
 }
 
-static void bad_color_picture_in_the_middle(void **state)
+TEST_CASE_WITH(bad_color_picture_in_the_middle, make_clip, test_folder_remove)
 {
-    (void)state;
     test_write("c1.png", jpeg_sample, sizeof(jpeg_sample) - 40);
     expect_second_without_color("c1.png", "cut short", "again");
     write_depth("c1.png", 1, 4, 4);
@@ -399,9 +386,8 @@ static void bad_color_picture_in_the_middle(void **state)
     expect_second_without_color("c1.png", "No such file", "line 2 out of rgb.txt");
 }
 
-static void clip_without_color(void **state)
+TEST_CASE_WITH(clip_without_color, make_clip, test_folder_remove)
 {
-    (void)state;
     remove(test_path("rgb.txt"));
     test_write_text("camera.json", "{" DEPTH_JSON "}");
     rlf_source *source = open_clip();
@@ -414,9 +400,8 @@ static void clip_without_color(void **state)
 
 /* A camera without pictures, or pictures without a camera: no colour, and a warning that says so.
  */
-static void half_of_the_color_is_none(void **state)
+TEST_CASE_WITH(half_of_the_color_is_none, make_clip, test_folder_remove)
 {
-    (void)state;
     test_log log = {0};
     rlf_set_log(test_log_line, &log);
     test_write_text("rgb.txt", "# timestamp filename\n");
@@ -435,9 +420,8 @@ static void half_of_the_color_is_none(void **state)
     assert_non_null(strstr(log.last, "camera.json"));
 }
 
-static void sources_that_cannot_be_opened(void **state)
+TEST_CASE_WITH(sources_that_cannot_be_opened, make_clip, test_folder_remove)
 {
-    (void)state;
     test_write_text("file.xyz", "x");
     const struct {
         const char *source;
@@ -458,9 +442,8 @@ static void sources_that_cannot_be_opened(void **state)
     }
 }
 
-static void nearest_of_times(void **state)
+TEST_CASE(nearest_of_times)
 {
-    (void)state;
     const int64_t known[3] = {10, 20, 40};
     const io_times list = {known, sizeof(known[0]), 3}, none = {.count = 0};
     const int64_t times[7] = {0, 10, 14, 15, 16, 30, 45};
@@ -516,9 +499,8 @@ static void check_clip(const clip *c)
     rlf_source_destroy(&source);
 }
 
-static void real_clips_play_to_their_end(void **state)
+TEST_CASE(real_clips_play_to_their_end)
 {
-    (void)state;
     static const clip clips[] = {{"hands_toys", 360, 320, 240, 320, 240},
                                  {"room_still", 12, 640, 480, 640, 480},
                                  {"kinect2_frame", 1, 512, 424, 0, 0},
@@ -533,9 +515,8 @@ static void real_clips_play_to_their_end(void **state)
     }
 }
 
-static void real_calibration_is_read(void **state)
+TEST_CASE(real_calibration_is_read)
 {
-    (void)state;
     const char *path = RLF_TEST_SHARED "/data/azure_frame/camera.json";
     if (!test_exists(path)) {
         print_message("SKIPPED: no %s\n", path);
@@ -551,31 +532,4 @@ static void real_calibration_is_read(void **state)
     rlf_mat3 rotation = rlf_quat_to_mat3(rig.T_color_depth.q);
     double error = rotation.m[2][2] - 0.9962812066078186;
     assert_true(error * error < 1e-12);
-}
-
-int main(void)
-{
-#define CLIP_TEST(f) cmocka_unit_test_setup_teardown(f, make_clip, test_folder_remove)
-    const struct CMUnitTest tests[] = {
-        CLIP_TEST(frames_come_in_order_with_the_nearest_color),
-        CLIP_TEST(frames_allocate_nothing),
-        CLIP_TEST(times_that_go_back_are_sorted_with_a_warning),
-        cmocka_unit_test(unix_times_keep_their_nanoseconds),
-        cmocka_unit_test(other_units_are_understood),
-        CLIP_TEST(broken_lists_are_refused),
-        CLIP_TEST(the_camera_has_the_size_of_its_pictures),
-        CLIP_TEST(missing_and_broken_camera_json),
-        CLIP_TEST(broken_color_list_is_refused),
-        CLIP_TEST(bad_depth_picture_in_the_middle),
-        CLIP_TEST(a_bad_first_picture_is_left_out),
-        CLIP_TEST(nothing_that_can_be_read_is_an_error),
-        CLIP_TEST(bad_color_picture_in_the_middle),
-        CLIP_TEST(clip_without_color),
-        CLIP_TEST(half_of_the_color_is_none),
-        CLIP_TEST(sources_that_cannot_be_opened),
-        cmocka_unit_test(nearest_of_times),
-        cmocka_unit_test(real_clips_play_to_their_end),
-        cmocka_unit_test(real_calibration_is_read),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

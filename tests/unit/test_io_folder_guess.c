@@ -81,9 +81,8 @@ static void expect_frames(rlf_source *source, const int *depth, const int *color
     rlf_set_log(NULL, NULL);
 }
 
-static void the_size_tells_the_camera(void **state)
+TEST_CASE(the_size_tells_the_camera)
 {
-    (void)state;
     const struct {
         int32_t width, height;
         double fx;
@@ -107,9 +106,9 @@ static void the_size_tells_the_camera(void **state)
     assert_null(io_guess_camera(641, 480, &camera));
 }
 
-static void a_clip_without_a_camera_gets_a_guess_and_a_line(void **state)
+TEST_CASE_WITH(a_clip_without_a_camera_gets_a_guess_and_a_line, test_folder_make,
+               test_folder_remove)
 {
-    (void)state;
     make_folder("clip");
     write_depth("clip/a.png", 2000, 512, 424);
     test_write_text("clip/depth.txt", "0.0 a.png\n");
@@ -131,9 +130,8 @@ static void a_clip_without_a_camera_gets_a_guess_and_a_line(void **state)
     rlf_set_log(NULL, NULL);
 }
 
-static void a_camera_that_is_given_is_taken(void **state)
+TEST_CASE_WITH(a_camera_that_is_given_is_taken, test_folder_make, test_folder_remove)
 {
-    (void)state;
     make_folder("clip");
     write_depth("clip/a.png", 2000, 160, 120);
     test_write_text("clip/depth.txt", "0.0 a.png\n");
@@ -152,9 +150,8 @@ static void a_camera_that_is_given_is_taken(void **state)
     rlf_set_log(NULL, NULL);
 }
 
-static void names_in_their_order_are_frames(void **state)
+TEST_CASE_WITH(names_in_their_order_are_frames, test_folder_make, test_folder_remove)
 {
-    (void)state;
     make_folder("clip");
     make_folder("clip/depth");
     make_folder("clip/rgb");
@@ -172,9 +169,8 @@ static void names_in_their_order_are_frames(void **state)
 }
 
 /* Times in the names are no numbers that count frames. */
-static void pictures_go_together_one_by_one_or_not_at_all(void **state)
+TEST_CASE_WITH(pictures_go_together_one_by_one_or_not_at_all, test_folder_make, test_folder_remove)
 {
-    (void)state;
     make_folder("clip");
     make_folder("clip/depth");
     make_folder("clip/color");
@@ -190,9 +186,8 @@ static void pictures_go_together_one_by_one_or_not_at_all(void **state)
     expect_frames(source, depth, none, 2);
 }
 
-static void depth_alone_in_a_folder_is_a_clip(void **state)
+TEST_CASE_WITH(depth_alone_in_a_folder_is_a_clip, test_folder_make, test_folder_remove)
 {
-    (void)state;
     make_folder("clip");
     write_depth("clip/000000.png", 1000, 160, 120);
     write_depth("clip/000001.png", 1001, 160, 120);
@@ -211,9 +206,8 @@ static void depth_alone_in_a_folder_is_a_clip(void **state)
     expect_frames(open_folder("named"), depth, color, 2);
 }
 
-static void color_of_another_shape_is_left_out(void **state)
+TEST_CASE_WITH(color_of_another_shape_is_left_out, test_folder_make, test_folder_remove)
 {
-    (void)state;
     make_folder("clip");
     make_folder("clip/depth");
     make_folder("clip/rgb");
@@ -223,20 +217,4 @@ static void color_of_another_shape_is_left_out(void **state)
     says("colour is left out: its pictures of 160 x 90");
     const int depth[1] = {1000}, none[1] = {-1};
     expect_frames(source, depth, none, 1);
-}
-
-#define FOLDER_TEST(f) cmocka_unit_test_setup_teardown(f, test_folder_make, test_folder_remove)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_size_tells_the_camera),
-        FOLDER_TEST(a_clip_without_a_camera_gets_a_guess_and_a_line),
-        FOLDER_TEST(a_camera_that_is_given_is_taken),
-        FOLDER_TEST(names_in_their_order_are_frames),
-        FOLDER_TEST(pictures_go_together_one_by_one_or_not_at_all),
-        FOLDER_TEST(depth_alone_in_a_folder_is_a_clip),
-        FOLDER_TEST(color_of_another_shape_is_left_out),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,9 +22,8 @@ static void close_source(rlf_source *s)
     assert_int_equal(stub_freenect2_get()->fault.objects, 0);
 }
 
-static void lists_cameras(void **state)
+TEST_CASE(lists_cameras)
 {
-    (void)state;
     stub_freenect2_get()->fault.devices = 2;
     rlf_source_entry entries[1];
     assert_null(io_backend_freenect2.unavailable());
@@ -59,9 +58,8 @@ static void check_color(const rlf_frame *f, uint64_t number)
     }
 }
 
-static void streams_unmirrored(void **state)
+TEST_CASE(streams_unmirrored)
 {
-    (void)state;
     for (int is_rgbx = 0; is_rgbx < 2; is_rgbx++) {
         stub_freenect2_get()->is_rgbx = is_rgbx != 0;
         stub_freenect2_get()->first_time = UINT32_MAX - STUB_K2_TICKS; /* wraps after one picture */
@@ -87,9 +85,8 @@ static void streams_unmirrored(void **state)
 }
 
 /* align=factory: the pictures of libfreenect2's Registration, mirrored back. */
-static void gives_the_factory_s_registration(void **state)
+TEST_CASE(gives_the_factory_s_registration)
 {
-    (void)state;
     rlf_source *s = stub_open("freenect2:?align=factory");
     const rlf_source_info *info = rlf_source_get_info(s);
     assert_int_equal(info->rig.color.width, 512);
@@ -108,9 +105,8 @@ static void gives_the_factory_s_registration(void **state)
     stub_refuse("freenect2:?align=yes", RLF_ERROR_INVALID, "none or factory");
 }
 
-static void counts_what_is_missing(void **state)
+TEST_CASE(counts_what_is_missing)
 {
-    (void)state;
     stub_fault *fault = &stub_freenect2_get()->fault;
     fault->drop_at = 3;
     fault->drop_count = 4;
@@ -143,9 +139,8 @@ static void counts_what_is_missing(void **state)
     close_source(s);
 }
 
-static void tells_faults(void **state)
+TEST_CASE(tells_faults)
 {
-    (void)state;
     stub_fault *fault = &stub_freenect2_get()->fault;
     fault->unplug_at = 2;
     rlf_source *s = stub_open("freenect2:");
@@ -170,14 +165,4 @@ static void tells_faults(void **state)
     assert_int_equal(fault->objects, 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(lists_cameras, set_up),
-        cmocka_unit_test_setup(streams_unmirrored, set_up),
-        cmocka_unit_test_setup(gives_the_factory_s_registration, set_up),
-        cmocka_unit_test_setup(counts_what_is_missing, set_up),
-        cmocka_unit_test_setup(tells_faults, set_up),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(set_up, NULL)

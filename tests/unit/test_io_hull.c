@@ -31,9 +31,8 @@ static bool is_near(double a, double b, double by)
 }
 
 /* Points of a 2 x 4 x 6 box about (1, 2, 3), inside and on its faces. */
-static void inner_points_are_left_out(void **state)
+TEST_CASE(inner_points_are_left_out)
 {
-    (void)state;
     rlf_vec3 points[125];
     for (int i = 0; i < 125; i++) {
         points[i] = rlf_vec3_make(0.5 * (i % 5), 1.0 * (i / 5 % 5), 1.5 * (i / 25));
@@ -54,9 +53,8 @@ static void inner_points_are_left_out(void **state)
 }
 
 /* A ball of 2000 points keeps most of its volume with few vertices, all of them its own. */
-static void many_vertices_become_few(void **state)
+TEST_CASE(many_vertices_become_few)
 {
-    (void)state;
     static rlf_vec3 points[2000];
     for (int i = 0; i < 2000; i++) {
         double y = 1.0 - (i + 0.5) / 1000.0;
@@ -79,9 +77,8 @@ static void many_vertices_become_few(void **state)
     }
 }
 
-static void bad_points_are_refused(void **state)
+TEST_CASE(bad_points_are_refused)
 {
-    (void)state;
     rlf_vec3 points[16];
     rlf_hull *hull = NULL;
     for (int i = 0; i < 16; i++) {
@@ -108,9 +105,8 @@ static rlf_result parse(const char *json, rlf_scene *scene)
     return io_scene_parse(&file, test_folder, scene);
 }
 
-static void scenes_give_points(void **state)
+TEST_CASE(scenes_give_points)
 {
-    (void)state;
     rlf_scene scene;
     assert_int_equal(parse("{\"bodies\":[{\"shape\":\"hull\",\"vertices\":[[0,0,0],[1,0,0],[0,1,0],"
                            "[0,0,1],[0.1,0.1,0.1]],\"size\":[0.5,1,1]}]}",
@@ -136,9 +132,8 @@ static void scenes_give_points(void **state)
 }
 
 /* The hull's corners are the model's; the look puts the model where the hull is. */
-static void a_model_gets_a_hull(void **state)
+TEST_CASE(a_model_gets_a_hull)
 {
-    (void)state;
     static model_text text;
     model_write(&text, &model_plain);
     test_write("box.gltf", text.text, text.length);
@@ -166,9 +161,8 @@ static void a_model_gets_a_hull(void **state)
 }
 
 /* An OBJ that is not convex was an error before there were models. */
-static void a_dented_obj_gets_a_hull(void **state)
+TEST_CASE(a_dented_obj_gets_a_hull)
 {
-    (void)state;
     test_write_text("arrow.obj", "v 0 0 0\nv 2 0 0\nv 0.5 0.5 0\nv 0 2 0\nv 0 0 1\nv 2 0 1\n"
                                  "v 0.5 0.5 1\nv 0 2 1\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\n"
                                  "f 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
@@ -181,15 +175,7 @@ static void a_dented_obj_gets_a_hull(void **state)
     rlf_scene_destroy(&scene);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(inner_points_are_left_out), cmocka_unit_test(many_vertices_become_few),
-        cmocka_unit_test(bad_points_are_refused),    cmocka_unit_test(scenes_give_points),
-        cmocka_unit_test(a_model_gets_a_hull),       cmocka_unit_test(a_dented_obj_gets_a_hull),
-    };
-    return cmocka_run_group_tests(tests, test_folder_make, test_folder_remove);
-}
+TEST_GROUP(test_folder_make, test_folder_remove)
 
 #else
 

@@ -23,9 +23,8 @@ static void close_source(rlf_source *s)
     assert_int_equal(stub_k4a_get()->fault.objects, 0);
 }
 
-static void lists_cameras(void **state)
+TEST_CASE(lists_cameras)
 {
-    (void)state;
     stub_fault *fault = &stub_k4a_get()->fault;
     fault->devices = 2;
     rlf_source_entry entries[2];
@@ -41,9 +40,8 @@ static void lists_cameras(void **state)
 
 /* The layout of k4a_calibration_t in k4atypes.h 1.4.1: two cameras of 32 words, sixteen transforms
  * of 12, two modes. */
-static void has_the_library_s_layout(void **state)
+TEST_CASE(has_the_library_s_layout)
 {
-    (void)state;
     assert_int_equal(sizeof(k4a_lens), 60);
     assert_int_equal(sizeof(k4a_camera), 4 * (12 + 2 + 15 + 3));
     assert_int_equal(sizeof(k4a_calibration), 2 * sizeof(k4a_camera) + 16 * 48 + 8);
@@ -102,9 +100,8 @@ static void check_frame(const rlf_frame *f, uint64_t number)
     }
 }
 
-static void streams_depth_and_color(void **state)
+TEST_CASE(streams_depth_and_color)
 {
-    (void)state;
     rlf_source *s = stub_open("k4a:");
     check_rig(rlf_source_get_info(s));
     const int wanted[5] = {K4A_FORMAT_COLOR_MJPG, K4A_COLOR_RESOLUTION_720P,
@@ -120,9 +117,8 @@ static void streams_depth_and_color(void **state)
     close_source(s);
 }
 
-static void reads_modes(void **state)
+TEST_CASE(reads_modes)
 {
-    (void)state;
     stub_k4a_get()->fault.devices = 2;
     rlf_source *s = stub_open("k4a:000121?mode=512x512@15&color=2048x1536");
     const int wanted[5] = {K4A_FORMAT_COLOR_MJPG, K4A_COLOR_RESOLUTION_1536P,
@@ -144,9 +140,8 @@ static void reads_modes(void **state)
     assert_int_equal(stub_k4a_get()->fault.objects, 0);
 }
 
-static void counts_what_is_missing(void **state)
+TEST_CASE(counts_what_is_missing)
 {
-    (void)state;
     stub_fault *fault = &stub_k4a_get()->fault;
     fault->drop_at = 3;
     fault->drop_count = 2;
@@ -176,9 +171,8 @@ static void counts_what_is_missing(void **state)
     close_source(s);
 }
 
-static void tells_faults(void **state)
+TEST_CASE(tells_faults)
 {
-    (void)state;
     stub_fault *fault = &stub_k4a_get()->fault;
     fault->stall_at = 2;
     fault->stall_count = 2;
@@ -215,9 +209,8 @@ static const char *const camera_json =
     "288, \"units_per_metre\": 1000}, \"color\": {\"width\": 1280, \"height\": 720, \"fx\": 600, "
     "\"fy\": 600, \"cx\": 640, \"cy\": 360}}";
 
-static void takes_the_user_s_calibration(void **state)
+TEST_CASE(takes_the_user_s_calibration)
 {
-    (void)state;
     char text[512];
     char source[TEST_PATH_MAX + 32];
     test_folder_make(NULL);
@@ -234,16 +227,4 @@ static void takes_the_user_s_calibration(void **state)
     test_folder_remove(NULL);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(lists_cameras, set_up),
-        cmocka_unit_test_setup(has_the_library_s_layout, set_up),
-        cmocka_unit_test_setup(streams_depth_and_color, set_up),
-        cmocka_unit_test_setup(reads_modes, set_up),
-        cmocka_unit_test_setup(counts_what_is_missing, set_up),
-        cmocka_unit_test_setup(tells_faults, set_up),
-        cmocka_unit_test_setup(takes_the_user_s_calibration, set_up),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(set_up, NULL)

@@ -6,9 +6,8 @@
 #include <math.h>
 
 /* The raw depth camera is the factory's lens, mirrored: plumb_bob as libfreenect2 computes it. */
-static void has_the_factory_s_lens(void **state)
+TEST_CASE(has_the_factory_s_lens)
 {
-    (void)state;
     const kinect2_ir *ir = &kinect2_sample_ir;
     rlf_rig rig;
     kinect2_fit fit;
@@ -28,9 +27,8 @@ static void has_the_factory_s_lens(void **state)
 }
 
 /* The fitted colour camera against the factory's cubics, at points between those of the fit. */
-static void fits_the_color_camera(void **state)
+TEST_CASE(fits_the_color_camera)
 {
-    (void)state;
     rlf_rig rig;
     kinect2_fit fit;
     assert_int_equal(kinect2_rig_fit(&kinect2_sample_ir, &kinect2_sample_color, &rig, &fit),
@@ -58,13 +56,4 @@ static void fits_the_color_camera(void **state)
     assert_true(worst < 1.0);
     const kinect2_color none = {0};
     assert_int_not_equal(kinect2_rig_fit(&kinect2_sample_ir, &none, &rig, &fit), RLF_OK);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(has_the_factory_s_lens),
-        cmocka_unit_test(fits_the_color_camera),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

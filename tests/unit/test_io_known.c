@@ -22,9 +22,8 @@ static const char *const whole =
     "{\"model\":\"cbc\",\"pixel\":[1,2]}]},"
     "{\"name\":\"waiting\"}]}";
 
-static void every_way_to_place_is_read(void **state)
+TEST_CASE(every_way_to_place_is_read)
 {
-    (void)state;
     rlf_scene scene;
     assert_int_equal(parse(whole, &scene), RLF_OK);
     assert_int_equal(scene.known_count, 3);
@@ -41,9 +40,8 @@ static void every_way_to_place_is_read(void **state)
     rlf_scene_destroy(&scene);
 }
 
-static void bad_known_objects_are_named(void **state)
+TEST_CASE(bad_known_objects_are_named)
 {
-    (void)state;
     static const struct {
         const char *text, *expected;
     } cases[] = {
@@ -86,9 +84,8 @@ static void bad_known_objects_are_named(void **state)
 }
 
 /* A chair of nine boxes, in the box that it is scaled into. */
-static void models_are_read(void **state)
+TEST_CASE(models_are_read)
 {
-    (void)state;
     rlf_scene scene;
     assert_int_equal(rlf_scene_load(RLF_TEST_ROOT "/scenes/known_chair.json", &scene), RLF_OK);
     const rlf_known_def *chair = &scene.known[0];
@@ -100,9 +97,8 @@ static void models_are_read(void **state)
     rlf_scene_destroy(&scene);
 }
 
-static void poses_are_saved_in_a_copy(void **state)
+TEST_CASE(poses_are_saved_in_a_copy)
 {
-    (void)state;
     char in[512], out[512];
     test_write_text("known.json", whole);
     snprintf(in, sizeof(in), "%s", test_path("known.json"));
@@ -123,9 +119,8 @@ static void poses_are_saved_in_a_copy(void **state)
 }
 
 /* In another folder: models of bodies and of patterns are found from there, too. */
-static void a_copy_elsewhere_finds_its_models(void **state)
+TEST_CASE(a_copy_elsewhere_finds_its_models)
 {
-    (void)state;
     char in[512];
     assert_int_equal(mkdir(test_path("scenes"), 0700), 0);
     test_write_text("scenes/gem.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
@@ -142,14 +137,4 @@ static void a_copy_elsewhere_finds_its_models(void **state)
     rlf_scene_destroy(&scene);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_way_to_place_is_read),
-        cmocka_unit_test(bad_known_objects_are_named),
-        cmocka_unit_test(models_are_read),
-        cmocka_unit_test(poses_are_saved_in_a_copy),
-        cmocka_unit_test(a_copy_elsewhere_finds_its_models),
-    };
-    return cmocka_run_group_tests(tests, test_folder_make, test_folder_remove);
-}
+TEST_GROUP(test_folder_make, test_folder_remove)

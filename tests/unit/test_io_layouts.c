@@ -72,9 +72,8 @@ static void expect_near(double got, double wanted)
 /* ---- TUM ----------------------------------------------------------------------------------------
  */
 
-static void tum_has_poses_and_a_known_camera(void **state)
+TEST_CASE_WITH(tum_has_poses_and_a_known_camera, test_folder_make, test_folder_remove)
 {
-    (void)state;
     make_folder("rgbd_freiburg1_desk");
     for (int i = 0; i < 5; i++) {
         char name[64];
@@ -118,9 +117,8 @@ static void tum_has_poses_and_a_known_camera(void **state)
     rlf_source_destroy(&source);
 }
 
-static void associations_come_in_either_order(void **state)
+TEST_CASE(associations_come_in_either_order)
 {
-    (void)state;
     const char text[] = "# rgb depth\n1.25 rgb/a.png 1.26 depth/a.png\r\n\n"
                         "1.50 depth/b.png 1.49 rgb/b.png\n";
     const io_bytes file = {"associations.txt", (const uint8_t *)text, sizeof(text) - 1};
@@ -144,9 +142,8 @@ static void associations_come_in_either_order(void **state)
  */
 
 /* Its y is up. Here y is down: what turns about x or z turns the other way, and up is -y. */
-static void icl_is_turned_to_y_down(void **state)
+TEST_CASE_WITH(icl_is_turned_to_y_down, test_folder_make, test_folder_remove)
 {
-    (void)state;
     make_folder("traj0/depth");
     make_folder("traj0/rgb");
     for (int i = 0; i < 3; i++) {
@@ -185,9 +182,8 @@ static void icl_is_turned_to_y_down(void **state)
 /* ---- 7-Scenes -----------------------------------------------------------------------------------
  */
 
-static void scenes7_says_65535_for_missing(void **state)
+TEST_CASE_WITH(scenes7_says_65535_for_missing, test_folder_make, test_folder_remove)
 {
-    (void)state;
     make_folder("seq-01");
     for (int i = 0; i < 3; i++) {
         char name[64];
@@ -229,9 +225,8 @@ static void make_redwood(const char *color_folder)
     }
 }
 
-static void redwood_reads_intrinsics_and_trajectory(void **state)
+TEST_CASE_WITH(redwood_reads_intrinsics_and_trajectory, test_folder_make, test_folder_remove)
 {
-    (void)state;
     make_redwood("color");
     rlf_source *source = open_folder("scene", 1, "PrimeSense");
     expect_near(rlf_source_get_info(source)->rig.depth.fx, 52.5);
@@ -256,9 +251,8 @@ static void redwood_reads_intrinsics_and_trajectory(void **state)
                       "intrinsic.json", "64 x 48", NULL);
 }
 
-static void names_may_hold_microseconds(void **state)
+TEST_CASE_WITH(names_may_hold_microseconds, test_folder_make, test_folder_remove)
 {
-    (void)state;
     make_folder("scene/depth");
     make_folder("scene/image");
     write_depth("scene/depth/000001-000000000000.png", 1, 1);
@@ -275,9 +269,8 @@ static void names_may_hold_microseconds(void **state)
     rlf_source_destroy(&source);
 }
 
-static void a_camera_json_goes_before_what_is_known(void **state)
+TEST_CASE_WITH(a_camera_json_goes_before_what_is_known, test_folder_make, test_folder_remove)
 {
-    (void)state;
     make_redwood("image");
     test_write_text("scene/camera.json",
                     "{\"depth\":{\"width\":64,\"height\":48,\"fx\":70,\"fy\":70,\"cx\":32,"
@@ -288,9 +281,8 @@ static void a_camera_json_goes_before_what_is_known(void **state)
     rlf_source_destroy(&source);
 }
 
-static void odd_shapes_have_no_known_camera(void **state)
+TEST_CASE_WITH(odd_shapes_have_no_known_camera, test_folder_make, test_folder_remove)
 {
-    (void)state;
     make_folder("scene/depth");
     uint16_t pixels[50 * 48] = {0};
     assert_int_equal(rlf_png_write_u16(test_path("scene/depth/0.png"), pixels, 50, 48), RLF_OK);
@@ -303,9 +295,8 @@ static void odd_shapes_have_no_known_camera(void **state)
 }
 
 /* Every prefix of the text files is read or refused, never more. */
-static void every_prefix_of_the_poses_is_safe(void **state)
+TEST_CASE(every_prefix_of_the_poses_is_safe)
 {
-    (void)state;
     const char text[] = "0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n1 1 2\n1 0 0 3\n";
     for (size_t size = 0; size < sizeof(text); size++) {
         const io_bytes file = {"x", (const uint8_t *)text, size};
@@ -320,9 +311,8 @@ static void every_prefix_of_the_poses_is_safe(void **state)
 }
 
 /* Poses go with the pictures' times, which tell their unit. */
-static void poses_in_other_units_are_understood(void **state)
+TEST_CASE(poses_in_other_units_are_understood)
 {
-    (void)state;
     static const struct {
         const char *first, *last;
         double first_s, last_s; /* of the pictures */
@@ -356,22 +346,4 @@ static void poses_in_other_units_are_understood(void **state)
         assert_true(cases[i].told == NULL || strstr(log.last, cases[i].told) != NULL);
         io_pose_list_free(&list);
     }
-}
-
-int main(void)
-{
-#define FOLDER_TEST(f) cmocka_unit_test_setup_teardown(f, test_folder_make, test_folder_remove)
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(poses_in_other_units_are_understood),
-        FOLDER_TEST(tum_has_poses_and_a_known_camera),
-        cmocka_unit_test(associations_come_in_either_order),
-        FOLDER_TEST(icl_is_turned_to_y_down),
-        FOLDER_TEST(scenes7_says_65535_for_missing),
-        FOLDER_TEST(redwood_reads_intrinsics_and_trajectory),
-        FOLDER_TEST(names_may_hold_microseconds),
-        FOLDER_TEST(a_camera_json_goes_before_what_is_known),
-        FOLDER_TEST(odd_shapes_have_no_known_camera),
-        cmocka_unit_test(every_prefix_of_the_poses_is_safe),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

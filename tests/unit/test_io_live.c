@@ -134,9 +134,8 @@ static rlf_source *open_good(void)
 
 /* ---- frames --------------------------------------------------------------------------------- */
 
-static void the_newest_frame_wins_and_stays_as_it_is(void **state)
+TEST_CASE(the_newest_frame_wins_and_stays_as_it_is)
 {
-    (void)state;
     rlf_source *source = open_good();
     assert_true(rlf_source_get_info(source)->is_live);
     uint64_t last = 0;
@@ -165,9 +164,8 @@ static void the_newest_frame_wins_and_stays_as_it_is(void **state)
 }
 
 /* Colour that changes its size is told as what it is, and the camera goes on when it is back. */
-static void colour_of_another_size_is_told(void **state)
+TEST_CASE(colour_of_another_size_is_told)
 {
-    (void)state;
     int64_t told_ns = 0;
     rlf_frame frame;
     rlf_source *source = open_good();
@@ -187,9 +185,8 @@ static void colour_of_another_size_is_told(void **state)
     rlf_source_destroy(&source);
 }
 
-static void lost_and_doubled_frames_are_counted(void **state)
+TEST_CASE(lost_and_doubled_frames_are_counted)
 {
-    (void)state;
     rlf_source *source = open_good();
     (void)next_frame(source);
     camera.skip = 3;
@@ -203,9 +200,8 @@ static void lost_and_doubled_frames_are_counted(void **state)
     rlf_source_destroy(&source);
 }
 
-static void waiting_ends_soon_and_is_no_busy_loop(void **state)
+TEST_CASE(waiting_ends_soon_and_is_no_busy_loop)
 {
-    (void)state;
     rlf_source *source = open_good();
     camera.next = IS_SILENT;
     sleep_ms(50);
@@ -220,9 +216,8 @@ static void waiting_ends_soon_and_is_no_busy_loop(void **state)
     rlf_source_destroy(&source);
 }
 
-static void frames_allocate_nothing(void **state)
+TEST_CASE(frames_allocate_nothing)
 {
-    (void)state;
     rlf_source *source = open_good();
     (void)next_frame(source);
     const uint64_t before = rlf_alloc_count();
@@ -256,9 +251,8 @@ static void check_back(rlf_source *source, int64_t time_ns, uint64_t sequence)
     assert_true(rlf_source_get_status(source).silence_s < 1.0);
 }
 
-static void a_camera_that_is_pulled_out_is_told_and_found_again(void **state)
+TEST_CASE(a_camera_that_is_pulled_out_is_told_and_found_again)
 {
-    (void)state;
     rlf_source *source = open_good();
     const rlf_frame last = next_frame(source);
     camera.open = FAILS;
@@ -272,9 +266,8 @@ static void a_camera_that_is_pulled_out_is_told_and_found_again(void **state)
     assert_int_equal(camera.closed, camera.opened);
 }
 
-static void a_camera_that_falls_silent_is_told_and_opened_again(void **state)
+TEST_CASE(a_camera_that_falls_silent_is_told_and_opened_again)
 {
-    (void)state;
     rlf_source *source = open_good();
     const rlf_frame last = next_frame(source);
     const int64_t start_ns = rlf_clock_ns();
@@ -290,9 +283,8 @@ static void a_camera_that_falls_silent_is_told_and_opened_again(void **state)
     rlf_source_destroy(&source);
 }
 
-static void another_camera_in_its_place_ends_the_source(void **state)
+TEST_CASE(another_camera_in_its_place_ends_the_source)
 {
-    (void)state;
     rlf_source *source = open_good();
     camera.width = 8;
     camera.next = FAILS;
@@ -330,9 +322,8 @@ static void await_close(void)
     assert_int_equal(camera.closed, camera.opened);
 }
 
-static void a_driver_stuck_in_next_is_told_and_left(void **state)
+TEST_CASE(a_driver_stuck_in_next_is_told_and_left)
 {
-    (void)state;
     rlf_source *source = open_good();
     const int64_t start_ns = rlf_clock_ns();
     camera.next = HANGS;
@@ -342,9 +333,8 @@ static void a_driver_stuck_in_next_is_told_and_left(void **state)
     await_close();
 }
 
-static void a_driver_that_returns_after_all_goes_on(void **state)
+TEST_CASE(a_driver_that_returns_after_all_goes_on)
 {
-    (void)state;
     rlf_source *source = open_good();
     const rlf_frame last = next_frame(source);
     camera.next = HANGS;
@@ -354,18 +344,16 @@ static void a_driver_that_returns_after_all_goes_on(void **state)
     assert_int_equal(camera.closed, camera.opened);
 }
 
-static void a_driver_stuck_in_close_is_left(void **state)
+TEST_CASE(a_driver_stuck_in_close_is_left)
 {
-    (void)state;
     rlf_source *source = open_good();
     camera.close = HANGS;
     end_in_time(&source);
     await_close();
 }
 
-static void a_driver_stuck_in_open_is_told_and_left(void **state)
+TEST_CASE(a_driver_stuck_in_open_is_told_and_left)
 {
-    (void)state;
     rlf_source *source = NULL;
     int64_t at_ns;
     camera.open = HANGS;
@@ -377,9 +365,8 @@ static void a_driver_stuck_in_open_is_told_and_left(void **state)
     await_close();
 }
 
-static void a_camera_without_a_first_frame_is_not_opened(void **state)
+TEST_CASE(a_camera_without_a_first_frame_is_not_opened)
 {
-    (void)state;
     rlf_source *source = NULL;
     camera.next = IS_SILENT;
     assert_int_equal(open_camera(&source), RLF_ERROR_DEVICE);
@@ -404,9 +391,8 @@ static void on_frame(void *context, const rlf_frame *frame)
 }
 
 /* As who records does: all frames, however slow the reader is. */
-static void an_observer_is_shown_every_frame(void **state)
+TEST_CASE(an_observer_is_shown_every_frame)
 {
-    (void)state;
     rlf_source *source = open_good();
     rlf_frame frame;
     shown = shown_gaps = 0;
@@ -424,24 +410,4 @@ static void an_observer_is_shown_every_frame(void **state)
     rlf_source_destroy(&source);
 }
 
-int main(void)
-{
-#define TEST(f) cmocka_unit_test_setup(f, set_up)
-    const struct CMUnitTest tests[] = {
-        TEST(the_newest_frame_wins_and_stays_as_it_is),
-        TEST(colour_of_another_size_is_told),
-        TEST(lost_and_doubled_frames_are_counted),
-        TEST(waiting_ends_soon_and_is_no_busy_loop),
-        TEST(frames_allocate_nothing),
-        TEST(an_observer_is_shown_every_frame),
-        TEST(a_camera_that_is_pulled_out_is_told_and_found_again),
-        TEST(a_camera_that_falls_silent_is_told_and_opened_again),
-        TEST(another_camera_in_its_place_ends_the_source),
-        TEST(a_driver_stuck_in_next_is_told_and_left),
-        TEST(a_driver_that_returns_after_all_goes_on),
-        TEST(a_driver_stuck_in_close_is_left),
-        TEST(a_driver_stuck_in_open_is_told_and_left),
-        TEST(a_camera_without_a_first_frame_is_not_opened),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(set_up, NULL)

@@ -54,9 +54,8 @@ static void expect_all(rlf_source *source)
     rlf_source_destroy(&source);
 }
 
-static void klg_is_read(void **state)
+TEST_CASE(klg_is_read)
 {
-    (void)state;
     test_write_text("camera.json", klg_rig);
     save("clip.klg", klg_sample_make(LOG_SAMPLE_FRAMES));
     expect_all(open_file(test_path("clip.klg")));
@@ -76,9 +75,8 @@ static void klg_is_read(void **state)
                       "order=abc", "bgr");
 }
 
-static void klg_without_a_calibration_warns(void **state)
+TEST_CASE(klg_without_a_calibration_warns)
 {
-    (void)state;
     test_log log = {0};
     rlf_set_log(test_log_line, &log);
     save("clip.klg", klg_sample_make(LOG_SAMPLE_FRAMES));
@@ -96,9 +94,8 @@ static void klg_without_a_calibration_warns(void **state)
     rlf_set_log(NULL, NULL);
 }
 
-static void sens_is_read(void **state)
+TEST_CASE(sens_is_read)
 {
-    (void)state;
     for (uint32_t packing = 0; packing < 2; packing++) {
         save("clip.sens", sens_sample_make(packing, LOG_SAMPLE_FRAMES));
         rlf_source *source = open_file(test_path("clip.sens"));
@@ -146,9 +143,8 @@ static void check_prefixes(const char *name, const byte_file *b)
     assert_int_equal(most, LOG_SAMPLE_FRAMES);
 }
 
-static void every_prefix_gives_whole_frames(void **state)
+TEST_CASE(every_prefix_gives_whole_frames)
 {
-    (void)state;
     test_write_text("camera.json", klg_rig);
     byte_file *b = klg_sample_make(LOG_SAMPLE_FRAMES);
     check_prefixes("clip.klg", b);
@@ -159,9 +155,8 @@ static void every_prefix_gives_whole_frames(void **state)
 }
 
 /* Counts and sizes that no file holds cost no memory; what is whole is read. */
-static void headers_that_lie_are_survived(void **state)
+TEST_CASE(headers_that_lie_are_survived)
 {
-    (void)state;
     test_log log = {0};
     rlf_set_log(test_log_line, &log);
     test_write_text("camera.json", klg_rig);
@@ -183,9 +178,8 @@ static void headers_that_lie_are_survived(void **state)
 }
 
 /* A few bytes that unpack to a gigabyte write no more than one picture. */
-static void packed_depth_of_another_size_is_refused(void **state)
+TEST_CASE(packed_depth_of_another_size_is_refused)
 {
-    (void)state;
     rlf_set_log(NULL, NULL);
     test_write_text("camera.json", klg_rig);
     byte_file *b = calloc(1, sizeof(*b));
@@ -210,9 +204,8 @@ static void packed_depth_of_another_size_is_refused(void **state)
 }
 
 /* Times in nanoseconds are told by their distance; those that go back are sorted. */
-static void times_are_made_sense_of(void **state)
+TEST_CASE(times_are_made_sense_of)
 {
-    (void)state;
     test_log log = {0};
     rlf_set_log(test_log_line, &log);
     test_write_text("camera.json", klg_rig);
@@ -245,17 +238,4 @@ static void times_are_made_sense_of(void **state)
     rlf_set_log(NULL, NULL);
 }
 
-int main(void)
-{
-#define LOG_TEST(f) cmocka_unit_test_setup_teardown(f, test_folder_make, test_folder_remove)
-    const struct CMUnitTest tests[] = {
-        LOG_TEST(klg_is_read),
-        LOG_TEST(klg_without_a_calibration_warns),
-        LOG_TEST(sens_is_read),
-        LOG_TEST(every_prefix_gives_whole_frames),
-        LOG_TEST(headers_that_lie_are_survived),
-        LOG_TEST(packed_depth_of_another_size_is_refused),
-        LOG_TEST(times_are_made_sense_of),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(test_folder_make, test_folder_remove)

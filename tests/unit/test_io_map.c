@@ -29,9 +29,8 @@ static long size_of(const char *path)
     return size;
 }
 
-static void a_map_file_comes_back(void **state)
+TEST_CASE(a_map_file_comes_back)
 {
-    (void)state;
     rlf_map *map = made();
     map_bytes before = map_bytes_of(map);
     assert_int_equal(rlf_map_write_file(map, "test_io_map.map"), RLF_OK);
@@ -49,9 +48,8 @@ static void a_map_file_comes_back(void **state)
     rlf_map_destroy(&map);
 }
 
-static void meshes_are_written_by_their_names(void **state)
+TEST_CASE(meshes_are_written_by_their_names)
 {
-    (void)state;
     rlf_map *map = made();
     rlf_map_mesh mesh;
     assert_int_equal(rlf_map_mesh_create(map, 1, &mesh), RLF_OK);
@@ -74,13 +72,4 @@ static void meshes_are_written_by_their_names(void **state)
     }
     rlf_map_mesh_destroy(&mesh);
     rlf_map_destroy(&map);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_map_file_comes_back),
-        cmocka_unit_test(meshes_are_written_by_their_names),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

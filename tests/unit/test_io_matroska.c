@@ -76,9 +76,8 @@ static void check_calibration(const rlf_rig *rig)
     assert_true(fabs(rotation.m[1][2] - 0.0871) < 1e-4);
 }
 
-static void recordings_of_k4arecorder_are_read(void **state)
+TEST_CASE(recordings_of_k4arecorder_are_read)
 {
-    (void)state;
     save(mkv_sample_make(nfov_binned, true));
     rlf_source *source = open_clip("");
     const rlf_source_info *info = rlf_source_get_info(source);
@@ -109,9 +108,8 @@ static void write_rig(const char *name, int width, int height)
     test_write_text(name, text);
 }
 
-static void calibrations_are_asked_for(void **state)
+TEST_CASE(calibrations_are_asked_for)
 {
-    (void)state;
     rlf_source *source = NULL;
     save(mkv_sample_make(tiny, true));
     test_expect_error(rlf_open_source(test_path("clip.mkv"), NULL, &source), RLF_ERROR_UNSUPPORTED,
@@ -128,9 +126,8 @@ static void calibrations_are_asked_for(void **state)
                       "clip.mkv", "8 x 6", "?camera=FILE");
 }
 
-static void every_prefix_gives_whole_frames(void **state)
+TEST_CASE(every_prefix_gives_whole_frames)
 {
-    (void)state;
     rlf_set_log(NULL, NULL);
     write_rig("clip.json", 4, 3);
     byte_file *b = mkv_sample_make(tiny, false);
@@ -156,9 +153,8 @@ static void every_prefix_gives_whole_frames(void **state)
     free(b);
 }
 
-static void damaged_pictures_are_passed_over(void **state)
+TEST_CASE(damaged_pictures_are_passed_over)
 {
-    (void)state;
     rlf_set_log(NULL, NULL);
     write_rig("clip.json", 4, 3);
     byte_file *b = mkv_sample_make(tiny, false);
@@ -277,9 +273,8 @@ static void name_the_format(void)
 }
 #endif
 
-static void recordings_of_another_muxer_are_read(void **state)
+TEST_CASE(recordings_of_another_muxer_are_read)
 {
-    (void)state;
 #ifdef RLF_HAVE_LIBAV
     av_log_set_level(AV_LOG_FATAL);
     write_with_libav();
@@ -297,13 +292,4 @@ static void recordings_of_another_muxer_are_read(void **state)
 #endif
 }
 
-int main(void)
-{
-#define MKV_TEST(f) cmocka_unit_test_setup_teardown(f, test_folder_make, test_folder_remove)
-    const struct CMUnitTest tests[] = {
-        MKV_TEST(recordings_of_k4arecorder_are_read),   MKV_TEST(calibrations_are_asked_for),
-        MKV_TEST(every_prefix_gives_whole_frames),      MKV_TEST(damaged_pictures_are_passed_over),
-        MKV_TEST(recordings_of_another_muxer_are_read),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(test_folder_make, test_folder_remove)

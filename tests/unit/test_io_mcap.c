@@ -67,9 +67,8 @@ static int32_t check_frames(const char *path, bool is_float)
     return count;
 }
 
-static void what_goes_in_comes_out(void **state)
+TEST_CASE(what_goes_in_comes_out)
 {
-    (void)state;
     for (int codec = 0; codec < 2; codec++) {
         for (int compression = 0; compression < 3; compression++) {
             const rlf_recording_def def =
@@ -82,9 +81,8 @@ static void what_goes_in_comes_out(void **state)
     }
 }
 
-static void any_frame_can_be_gone_to(void **state)
+TEST_CASE(any_frame_can_be_gone_to)
 {
-    (void)state;
     const rlf_recording_def def = sample_def(RLF_DEPTH_RVL, RLF_COMPRESSION_ZSTD);
     sample_record(test_path("a.mcap"), &def, 30, false);
     rlf_source *source = open_file(test_path("a.mcap"));
@@ -100,9 +98,8 @@ static void any_frame_can_be_gone_to(void **state)
     rlf_source_destroy(&source);
 }
 
-static void folders_and_files_turn_into_each_other(void **state)
+TEST_CASE(folders_and_files_turn_into_each_other)
 {
-    (void)state;
     const rlf_recording_def def = sample_def(RLF_DEPTH_RVL, RLF_COMPRESSION_ZSTD);
     char folder[TEST_PATH_MAX];
     snprintf(folder, sizeof(folder), "%s/", test_path("clip"));
@@ -140,9 +137,8 @@ static int32_t count_chunks(const uint8_t *data, size_t size)
     return chunks;
 }
 
-static void every_prefix_gives_its_whole_chunks(void **state)
+TEST_CASE(every_prefix_gives_its_whole_chunks)
 {
-    (void)state;
     const rlf_recording_def def = sample_def(RLF_DEPTH_RVL, RLF_COMPRESSION_ZSTD);
     sample_record(test_path("a.mcap"), &def, 7, false);
     size_t size;
@@ -185,9 +181,8 @@ static size_t find_chunk(const uint8_t *data, size_t size, int32_t n, size_t *ou
     }
 }
 
-static void a_damaged_chunk_is_left_out_and_told(void **state)
+TEST_CASE(a_damaged_chunk_is_left_out_and_told)
 {
-    (void)state;
     for (int compression = 0; compression < 3; compression++) {
         const rlf_recording_def def = sample_def(RLF_DEPTH_RVL, (rlf_compression)compression);
         sample_record(test_path("a.mcap"), &def, 16, false);
@@ -209,9 +204,8 @@ static void a_damaged_chunk_is_left_out_and_told(void **state)
     }
 }
 
-static void a_chunk_that_claims_too_much_is_left_out(void **state)
+TEST_CASE(a_chunk_that_claims_too_much_is_left_out)
 {
-    (void)state;
     const rlf_recording_def def = sample_def(RLF_DEPTH_RVL, RLF_COMPRESSION_ZSTD);
     sample_record(test_path("a.mcap"), &def, 16, false);
     size_t size, end;
@@ -228,9 +222,8 @@ static void a_chunk_that_claims_too_much_is_left_out(void **state)
 }
 
 /* A limit on the size of files stands for a disk that is full. */
-static void a_full_disk_keeps_what_was_written(void **state)
+TEST_CASE(a_full_disk_keeps_what_was_written)
 {
-    (void)state;
     const rlf_source_info info = sample_info();
     rlf_recording_def def = sample_def(RLF_DEPTH_RVL, RLF_COMPRESSION_NONE);
     struct rlimit before;
@@ -265,9 +258,8 @@ static void a_full_disk_keeps_what_was_written(void **state)
     }
 }
 
-static void files_that_are_none_are_refused(void **state)
+TEST_CASE(files_that_are_none_are_refused)
 {
-    (void)state;
     rlf_source *source = NULL;
     test_write_text("a.mcap", "hello, this is no recording at all, but it has some length");
     test_expect_error(rlf_open_source(test_path("a.mcap"), NULL, &source), RLF_ERROR_FORMAT,
@@ -284,25 +276,4 @@ static void files_that_are_none_are_refused(void **state)
                       RLF_ERROR_IO, "no/such", "cannot be created", "folder");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(what_goes_in_comes_out, test_folder_make,
-                                        test_folder_remove),
-        cmocka_unit_test_setup_teardown(any_frame_can_be_gone_to, test_folder_make,
-                                        test_folder_remove),
-        cmocka_unit_test_setup_teardown(folders_and_files_turn_into_each_other, test_folder_make,
-                                        test_folder_remove),
-        cmocka_unit_test_setup_teardown(every_prefix_gives_its_whole_chunks, test_folder_make,
-                                        test_folder_remove),
-        cmocka_unit_test_setup_teardown(a_damaged_chunk_is_left_out_and_told, test_folder_make,
-                                        test_folder_remove),
-        cmocka_unit_test_setup_teardown(a_chunk_that_claims_too_much_is_left_out, test_folder_make,
-                                        test_folder_remove),
-        cmocka_unit_test_setup_teardown(a_full_disk_keeps_what_was_written, test_folder_make,
-                                        test_folder_remove),
-        cmocka_unit_test_setup_teardown(files_that_are_none_are_refused, test_folder_make,
-                                        test_folder_remove),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(test_folder_make, test_folder_remove)

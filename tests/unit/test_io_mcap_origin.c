@@ -61,9 +61,8 @@ static void record_odd(const char *path)
     assert_int_equal(rlf_recording_close(&recording, NULL), RLF_OK);
 }
 
-static void what_a_source_says_comes_back(void **state)
+TEST_CASE(what_a_source_says_comes_back)
 {
-    (void)state;
     const rlf_source_info want = odd_info();
     for (int kind = 0; kind < 2; kind++) {
         rlf_source *source = NULL;
@@ -81,9 +80,8 @@ static void what_a_source_says_comes_back(void **state)
     }
 }
 
-static void what_a_frame_says_comes_back(void **state)
+TEST_CASE(what_a_frame_says_comes_back)
 {
-    (void)state;
     const rlf_source_info info = odd_info();
     for (int kind = 0; kind < 2; kind++) {
         rlf_source *source = NULL;
@@ -109,9 +107,8 @@ static void what_a_frame_says_comes_back(void **state)
 
 /* Of an earlier recording in the same folder nothing is left that a reader would take for this
  * one's. */
-static void a_folder_forgets_what_was_recorded_there(void **state)
+TEST_CASE(a_folder_forgets_what_was_recorded_there)
 {
-    (void)state;
     rlf_source *source = NULL;
     rlf_frame frame;
     record_odd(recorded_path(1));
@@ -133,9 +130,8 @@ static void a_folder_forgets_what_was_recorded_there(void **state)
     rlf_source_destroy(&source);
 }
 
-static void texts_that_are_no_note_are_refused(void **state)
+TEST_CASE(texts_that_are_no_note_are_refused)
 {
-    (void)state;
     static const char *const texts[] = {"", "{", "{\"stamp_ns\": 1}", "stamp_ns 1 sequence 2"};
     io_frame_note note;
     for (size_t i = 0; i < sizeof(texts) / sizeof(texts[0]); i++) {
@@ -149,13 +145,4 @@ static void texts_that_are_no_note_are_refused(void **state)
                 note.flags == want.flags && note.color_time_ns == want.color_time_ns);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_a_source_says_comes_back),
-        cmocka_unit_test(what_a_frame_says_comes_back),
-        cmocka_unit_test(a_folder_forgets_what_was_recorded_there),
-        cmocka_unit_test(texts_that_are_no_note_are_refused),
-    };
-    return cmocka_run_group_tests(tests, test_folder_make, test_folder_remove);
-}
+TEST_GROUP(test_folder_make, test_folder_remove)

@@ -65,9 +65,8 @@ static void spoil(int32_t how, rlf_frame *f)
     }
 }
 
-static void frames_that_are_none_are_refused(void **state)
+TEST_CASE(frames_that_are_none_are_refused)
 {
-    (void)state;
     const rlf_source_info info = sample_info();
     for (int is_folder = 0; is_folder < 2; is_folder++) {
         const char *name = is_folder != 0 ? "checked" : "checked.mcap";
@@ -84,9 +83,8 @@ static void frames_that_are_none_are_refused(void **state)
     }
 }
 
-static void defs_and_names_that_are_none_are_refused(void **state)
+TEST_CASE(defs_and_names_that_are_none_are_refused)
 {
-    (void)state;
     static const char *const names[] = {"a.mp4", "a.bag", "a", "a.mcap.txt", ".json"};
     const rlf_source_info info = sample_info();
     rlf_recording *recording = NULL;
@@ -106,9 +104,8 @@ static void defs_and_names_that_are_none_are_refused(void **state)
 }
 
 /* A limit on the size of files stands for a disk that is full. */
-static void a_full_disk_tells_what_can_be_read(void **state)
+TEST_CASE(a_full_disk_tells_what_can_be_read)
 {
-    (void)state;
     signal(SIGXFSZ, SIG_IGN);
     const rlf_source_info info = sample_info();
     for (int is_folder = 0; is_folder < 2; is_folder++) {
@@ -146,9 +143,8 @@ static void expect_refused(const char *name)
     assert_non_null(strstr(rlf_error_text(), "while it is read"));
 }
 
-static void a_file_that_is_read_is_not_written(void **state)
+TEST_CASE(a_file_that_is_read_is_not_written)
 {
-    (void)state;
     static const char *const names[] = {"read.mcap", "link.mcap", "hard.mcap"};
     const rlf_recording_def def = sample_def(RLF_DEPTH_RVL, RLF_COMPRESSION_ZSTD);
     rlf_source *source = NULL;
@@ -170,9 +166,8 @@ static void a_file_that_is_read_is_not_written(void **state)
     assert_int_equal(count_frames("read.mcap"), 3);
 }
 
-static void a_folder_that_is_read_is_not_written(void **state)
+TEST_CASE(a_folder_that_is_read_is_not_written)
 {
-    (void)state;
     static const char *const folders[] = {"seen", "seen/", "seen/depth", "seen/rgb/", "way"};
     static const char *const files[] = {"seen/depth.txt", "seen/camera.json", "way/rgb.txt",
                                         "seen/depth/000001.png", "list.txt"};
@@ -201,14 +196,4 @@ static void a_folder_that_is_read_is_not_written(void **state)
     assert_int_equal(rlf_file_write(test_path("seen/camera.json"), "x", 1), RLF_OK);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(frames_that_are_none_are_refused),
-        cmocka_unit_test(defs_and_names_that_are_none_are_refused),
-        cmocka_unit_test(a_full_disk_tells_what_can_be_read),
-        cmocka_unit_test(a_file_that_is_read_is_not_written),
-        cmocka_unit_test(a_folder_that_is_read_is_not_written),
-    };
-    return cmocka_run_group_tests(tests, test_folder_make, test_folder_remove);
-}
+TEST_GROUP(test_folder_make, test_folder_remove)

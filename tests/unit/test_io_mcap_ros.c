@@ -129,9 +129,8 @@ static void make_realsense(const char *name)
     bag_close(&b);
 }
 
-static void a_realsense_recording_is_understood(void **state)
+TEST_CASE_WITH(a_realsense_recording_is_understood, test_folder_make, test_folder_remove)
 {
-    (void)state;
     make_realsense("a.mcap");
     rlf_source *source = NULL;
     assert_int_equal(rlf_open_source(test_path("a.mcap"), NULL, &source), RLF_OK);
@@ -153,9 +152,8 @@ static void a_realsense_recording_is_understood(void **state)
     rlf_source_destroy(&source);
 }
 
-static void topics_can_be_chosen(void **state)
+TEST_CASE_WITH(topics_can_be_chosen, test_folder_make, test_folder_remove)
 {
-    (void)state;
     make_realsense("a.mcap");
     char address[TEST_PATH_MAX + 64];
     rlf_source *source = NULL;
@@ -195,9 +193,8 @@ static rlf_source *open_one(const shot *depth, const shot *color, rlf_frame *fra
     return source;
 }
 
-static void every_kind_of_picture_is_read(void **state)
+TEST_CASE_WITH(every_kind_of_picture_is_read, test_folder_make, test_folder_remove)
 {
-    (void)state;
     draw();
     static const struct {
         const char *name;
@@ -228,9 +225,8 @@ static void every_kind_of_picture_is_read(void **state)
     }
 }
 
-static void metres_are_read(void **state)
+TEST_CASE_WITH(metres_are_read, test_folder_make, test_folder_remove)
 {
-    (void)state;
     float metres[W * H];
     for (int i = 0; i < W * H; i++) {
         metres[i] = i == 0 ? 0.0f : 1.0f + (float)i / 7.0f;
@@ -257,9 +253,8 @@ static void metres_are_read(void **state)
     rlf_source_destroy(&source);
 }
 
-static void without_calibration_it_says_what_to_do(void **state)
+TEST_CASE_WITH(without_calibration_it_says_what_to_do, test_folder_make, test_folder_remove)
 {
-    (void)state;
     draw();
     bag b = bag_open("a.mcap");
     const uint16_t d = add_topic(&b, IO_ROS_IMAGE, "/d/image");
@@ -282,9 +277,8 @@ static void without_calibration_it_says_what_to_do(void **state)
                       "a.mcap", "7 x 4", "?camera=FILE");
 }
 
-static void numbers_are_aligned_as_cdr_wants(void **state)
+TEST_CASE(numbers_are_aligned_as_cdr_wants)
 {
-    (void)state;
     io_byte_buffer buffer = {0};
     io_cdr_writer w = io_cdr_begin(&buffer);
     const double number = 0.1;
@@ -312,20 +306,4 @@ static void numbers_are_aligned_as_cdr_wants(void **state)
     io_cdr_reader r = io_cdr_open(big, sizeof(big));
     assert_int_equal(io_cdr_get_u32(&r), 5);
     io_byte_buffer_free(&buffer);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_realsense_recording_is_understood, test_folder_make,
-                                        test_folder_remove),
-        cmocka_unit_test_setup_teardown(topics_can_be_chosen, test_folder_make, test_folder_remove),
-        cmocka_unit_test_setup_teardown(every_kind_of_picture_is_read, test_folder_make,
-                                        test_folder_remove),
-        cmocka_unit_test_setup_teardown(metres_are_read, test_folder_make, test_folder_remove),
-        cmocka_unit_test_setup_teardown(without_calibration_it_says_what_to_do, test_folder_make,
-                                        test_folder_remove),
-        cmocka_unit_test(numbers_are_aligned_as_cdr_wants),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

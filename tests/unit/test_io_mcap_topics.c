@@ -60,9 +60,8 @@ static void expect_told(const char *text)
 
 /* ---- the lens ------------------------------------------------------------------------------- */
 
-static void binning_and_windows_are_applied(void **state)
+TEST_CASE(binning_and_windows_are_applied)
 {
-    (void)state;
     static const struct {
         uint32_t width, height;
         io_camera_window window;
@@ -105,9 +104,8 @@ static void binning_and_windows_are_applied(void **state)
 }
 
 /* Rays of known angles, by the formula of the lens, are where the fitted camera puts them. */
-static void an_equidistant_lens_is_fitted(void **state)
+TEST_CASE(an_equidistant_lens_is_fitted)
 {
-    (void)state;
     static const double lenses[][4] = {{0, 0, 0, 0}, {0.02, -0.005, 0.001, 0}, {-0.03, 0.01, 0, 0}};
     for (size_t i = 0; i < sizeof(lenses) / sizeof(lenses[0]); i++) {
         const double *k = lenses[i];
@@ -129,9 +127,8 @@ static void an_equidistant_lens_is_fitted(void **state)
     assert_true(isinf(io_equidistant_lens(lenses[0], &wide))); /* 115 degrees to its corners */
 }
 
-static void what_is_left_out_is_told(void **state)
+TEST_CASE(what_is_left_out_is_told)
 {
-    (void)state;
     static const struct {
         const char *topic, *model;
         double d[IO_ROS_DISTORTION_MAX], r01, p0, p3;
@@ -223,9 +220,8 @@ static void make_two(const char *stem, const io_camera_info *info)
     ros_file_close(&f, stem);
 }
 
-static void a_lens_of_another_size_is_never_taken(void **state)
+TEST_CASE(a_lens_of_another_size_is_never_taken)
 {
-    (void)state;
     for (int kind = 0; kind < 2; kind++) {
         rlf_source *source = NULL;
         io_camera_info info = ros_lens("d", (uint32_t[2]){16, 12}, 112);
@@ -277,9 +273,8 @@ static void make_aligned(const char *stem, bool has_tf)
     ros_file_close(&f, stem);
 }
 
-static void aligned_depth_serves_without_transforms(void **state)
+TEST_CASE(aligned_depth_serves_without_transforms)
 {
-    (void)state;
     for (int kind = 0; kind < 2; kind++) {
         rlf_source *source = NULL;
         rlf_frame frame;
@@ -333,9 +328,8 @@ static void make_coded(const char *stem, const char *format, const void *data, s
     ros_file_close(&f, stem);
 }
 
-static void depth_in_a_png_is_read(void **state)
+TEST_CASE(depth_in_a_png_is_read)
 {
-    (void)state;
     static const char *const formats[] = {
         "png",  "16UC1; png compressed ", "mono16; png compressed ", "16UC1; compressedDepth png",
         ".png", "16UC1; compressedDepth"};
@@ -373,9 +367,8 @@ static void depth_in_a_png_is_read(void **state)
 
 /* As a ZED driver does: depth in metres in the colour camera's pixels, and a map of confidence that
  * looks like depth and has more pictures. */
-static void confidence_is_no_depth(void **state)
+TEST_CASE(confidence_is_no_depth)
 {
-    (void)state;
     float metres[48];
     uint8_t bgra[192] = {0};
     for (int i = 0; i < 48; i++) {
@@ -409,9 +402,8 @@ static void confidence_is_no_depth(void **state)
     }
 }
 
-static void what_is_not_read_is_named(void **state)
+TEST_CASE(what_is_not_read_is_named)
 {
-    (void)state;
     ros_file f = ros_file_open("a");
     const uint16_t g = ros_topic(&f, IO_ROS_IMAGE, "/stereo/disparity_raw");
     ros_image(&f, g, "d", "8UC1", small, rgb, 48);
@@ -434,9 +426,8 @@ static void what_is_not_read_is_named(void **state)
 }
 
 /* ros2 bag record --compression-mode message. */
-static void messages_packed_one_by_one_are_read(void **state)
+TEST_CASE(messages_packed_one_by_one_are_read)
 {
-    (void)state;
     ros_file f = ros_file_open("plain");
     const uint16_t d = ros_topic(&f, IO_ROS_IMAGE, "/d/image");
     const uint16_t i = ros_topic(&f, IO_ROS_CAMERA_INFO, "/d/camera_info");
@@ -475,9 +466,8 @@ static void messages_packed_one_by_one_are_read(void **state)
     rlf_source_destroy(&source);
 }
 
-static void other_forms_of_recordings_are_named(void **state)
+TEST_CASE(other_forms_of_recordings_are_named)
 {
-    (void)state;
     rlf_source *source = NULL;
     test_write_text("a.db3", "SQLite format 3");
     test_expect_error(rlf_open_source(test_path("a.db3"), NULL, &source), RLF_ERROR_UNSUPPORTED,
@@ -495,20 +485,4 @@ static void other_forms_of_recordings_are_named(void **state)
                       "is the folder of a ROS 2 recording", "2 files", "such as a_0.mcap");
 }
 
-int main(void)
-{
-#define ROS_TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
-    const struct CMUnitTest tests[] = {
-        ROS_TEST(binning_and_windows_are_applied),
-        ROS_TEST(an_equidistant_lens_is_fitted),
-        ROS_TEST(what_is_left_out_is_told),
-        ROS_TEST(a_lens_of_another_size_is_never_taken),
-        ROS_TEST(aligned_depth_serves_without_transforms),
-        ROS_TEST(depth_in_a_png_is_read),
-        ROS_TEST(confidence_is_no_depth),
-        ROS_TEST(what_is_not_read_is_named),
-        ROS_TEST(messages_packed_one_by_one_are_read),
-        ROS_TEST(other_forms_of_recordings_are_named),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(set_up, tear_down)

@@ -141,9 +141,8 @@ static void expect(const change *c, size_t index)
     rlf_set_log(NULL, NULL);
 }
 
-static void files_without_chunks_or_index_are_read(void **state)
+TEST_CASE(files_without_chunks_or_index_are_read)
 {
-    (void)state;
     static const change changes[] = {
         {.chunks = 2,
          .has_index = true,
@@ -173,11 +172,4 @@ static void files_without_chunks_or_index_are_read(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(files_without_chunks_or_index_are_read, test_folder_make,
-                                        test_folder_remove),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(test_folder_make, test_folder_remove)

@@ -70,9 +70,8 @@ static void write_paint(int32_t width, int32_t height)
 }
 
 /* y up becomes y down, by half a turn about x. */
-static void gltf_stands_upright(void **state)
+TEST_CASE(gltf_stands_upright)
 {
-    (void)state;
     rlf_model *model = load(&model_plain);
     assert_int_equal(model->triangle_count, 12);
     assert_int_equal(model->part_count, 1);
@@ -102,9 +101,8 @@ static void gltf_stands_upright(void **state)
 }
 
 /* A mirrored node turns triangles round; scale and place are taken. */
-static void nodes_place_meshes(void **state)
+TEST_CASE(nodes_place_meshes)
 {
-    (void)state;
     model_options o = model_plain;
     o.node = ",\"scale\":[-2,1,1],\"translation\":[10,0,0]";
     rlf_model *model = load(&o);
@@ -121,9 +119,8 @@ static void nodes_place_meshes(void **state)
     rlf_model_destroy(&model);
 }
 
-static void texture_and_color_are_read(void **state)
+TEST_CASE(texture_and_color_are_read)
 {
-    (void)state;
     write_paint(100, 20); /* becomes 128 x 16 */
     rlf_model *model = load(&model_textured);
     assert_int_equal(warning_count, 0);
@@ -144,9 +141,8 @@ static void texture_and_color_are_read(void **state)
     rlf_model_destroy(&model);
 }
 
-static void metal_roughness_and_normals_are_read(void **state)
+TEST_CASE(metal_roughness_and_normals_are_read)
 {
-    (void)state;
     write_paint(16, 16);
     model_options o = model_textured;
     o.material =
@@ -166,9 +162,8 @@ static void metal_roughness_and_normals_are_read(void **state)
     rlf_model_destroy(&model);
 }
 
-static void two_sided_faces_are_there_twice(void **state)
+TEST_CASE(two_sided_faces_are_there_twice)
 {
-    (void)state;
     model_options o = model_plain;
     o.material = "{\"doubleSided\":true}";
     rlf_model *model = load(&o);
@@ -176,9 +171,8 @@ static void two_sided_faces_are_there_twice(void **state)
     rlf_model_destroy(&model);
 }
 
-static void obj_is_taken_as_it_is(void **state)
+TEST_CASE(obj_is_taken_as_it_is)
 {
-    (void)state;
     write_paint(8, 8);
     test_write_text("flag.mtl", "newmtl cloth\nKd 1 0.5 0.25\nmap_Kd paint.png\n");
     test_write_text("flag.obj", "mtllib flag.mtl\nusemtl cloth\nv 0 0 0\nv 1 0 0\nv 1 2 0\n"
@@ -197,9 +191,8 @@ static void obj_is_taken_as_it_is(void **state)
     rlf_model_destroy(&model);
 }
 
-static void missing_texture_is_one_warning(void **state)
+TEST_CASE(missing_texture_is_one_warning)
 {
-    (void)state;
     rlf_model *model = load(&model_textured);
     assert_int_equal(warning_count, 1);
     assert_non_null(strstr(warning, "box.gltf"));
@@ -210,9 +203,8 @@ static void missing_texture_is_one_warning(void **state)
     rlf_model_destroy(&model);
 }
 
-static void huge_or_broken_texture_is_one_warning(void **state)
+TEST_CASE(huge_or_broken_texture_is_one_warning)
 {
-    (void)state;
     write_paint(RLF_MODEL_IMAGE_MAX + 1, 1);
     rlf_model *model = load(&model_textured);
     assert_int_equal(warning_count, 1);
@@ -225,9 +217,8 @@ static void huge_or_broken_texture_is_one_warning(void **state)
     rlf_model_destroy(&model);
 }
 
-static void bad_files_fail_in_one_line(void **state)
+TEST_CASE(bad_files_fail_in_one_line)
 {
-    (void)state;
     fail_load("none.gltf", RLF_ERROR_IO, "check the name");
     test_write_text("model.fbx", "x");
     fail_load("model.fbx", RLF_ERROR_UNSUPPORTED, ".gltf, .glb or .obj");
@@ -244,9 +235,8 @@ static void bad_files_fail_in_one_line(void **state)
     fail_load("nan.obj", RLF_ERROR_FORMAT, "vertex");
 }
 
-static void bad_numbers_name_the_vertex(void **state)
+TEST_CASE(bad_numbers_name_the_vertex)
 {
-    (void)state;
     model_options o = model_plain;
     o.first_x = NAN;
     model_write(&text, &o);
@@ -259,9 +249,8 @@ static void bad_numbers_name_the_vertex(void **state)
 }
 
 /* Cut anywhere it is an error or, where only blanks are missing, the model. */
-static void truncated_gltf_fails(void **state)
+TEST_CASE(truncated_gltf_fails)
 {
-    (void)state;
     model_write(&text, &model_plain);
     size_t whole = text.length;
     for (size_t size = 1; size + 2 < whole; size += 41) {
@@ -288,9 +277,8 @@ static void write_repeated(const char *name, const char *head, const char *piece
 #define ROOT ASSET "\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":["
 
 /* What would take all memory or the stack is refused before it is read: each in no time. */
-static void bombs_are_refused(void **state)
+TEST_CASE(bombs_are_refused)
 {
-    (void)state;
     alarm(60);
     write_repeated("twice.gltf", ROOT, "{\"children\":[%d,%d]},", 40, "{}]}");
     fail_load("twice.gltf", RLF_ERROR_FORMAT, "more than one parent");
@@ -333,9 +321,8 @@ static void bombs_are_refused(void **state)
     alarm(0);
 }
 
-static void missing_materials_are_named(void **state)
+TEST_CASE(missing_materials_are_named)
 {
-    (void)state;
     test_write_text("odd.obj", "mtllib odd.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     rlf_model *model = NULL;
     assert_int_equal(rlf_model_load(test_path("odd.obj"), &model), RLF_OK);
@@ -345,9 +332,8 @@ static void missing_materials_are_named(void **state)
 }
 
 /* An L is cut along its inner corner; a fan from its first corner would cover the notch. */
-static void dented_faces_keep_their_area(void **state)
+TEST_CASE(dented_faces_keep_their_area)
 {
-    (void)state;
     test_write_text("l.obj", "v 1 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\n"
                              "f 3 4 5 6 7 1 2\n");
     rlf_model *model = NULL;
@@ -367,9 +353,8 @@ static void dented_faces_keep_their_area(void **state)
 }
 
 /* The box without normals: each of its corners belongs to three flat faces. */
-static void edges_stay_sharp(void **state)
+TEST_CASE(edges_stay_sharp)
 {
-    (void)state;
     rlf_model *model = load(&model_plain);
     assert_int_equal(model->vertex_count, 24);
     for (int32_t i = 0; i < model->vertex_count; i++) {
@@ -379,9 +364,8 @@ static void edges_stay_sharp(void **state)
     rlf_model_destroy(&model);
 }
 
-static void pictures_have_a_budget(void **state)
+TEST_CASE(pictures_have_a_budget)
 {
-    (void)state;
     write_paint(100, 20);
     size_t size;
     char *data = test_read(test_path("paint.png"), &size);
@@ -404,9 +388,8 @@ static void *short_alloc(void *context, size_t size)
 }
 
 /* Whichever allocation fails, the error is that memory is short, and nothing is left out. */
-static void short_memory_is_the_error(void **state)
+TEST_CASE(short_memory_is_the_error)
 {
-    (void)state;
     write_paint(8, 8);
     model_write(&text, &model_textured);
     test_write("box.gltf", text.text, text.length);
@@ -433,9 +416,8 @@ static void short_memory_is_the_error(void **state)
 }
 
 /* More triangles than are drawn, and a file that need not be read to know. */
-static void too_many_triangles_fail(void **state)
+TEST_CASE(too_many_triangles_fail)
 {
-    (void)state;
     FILE *file = fopen(test_path("many.obj"), "wb");
     assert_non_null(file);
     fputs("v 0 0 0\nv 1 0 0\nv 0 1 0\n", file);
@@ -449,9 +431,8 @@ static void too_many_triangles_fail(void **state)
 }
 
 /* The same file gives the same model, and another file another id. */
-static void id_tells_models_apart(void **state)
+TEST_CASE(id_tells_models_apart)
 {
-    (void)state;
     rlf_model *a = load(&model_plain);
     rlf_model *b = load(&model_plain);
     model_options o = model_plain;
@@ -470,9 +451,8 @@ static rlf_result parse(const char *json, rlf_scene *scene)
 }
 
 /* Proportions kept, in the middle of the shape; read once for both. */
-static void a_shape_wears_a_model(void **state)
+TEST_CASE(a_shape_wears_a_model)
 {
-    (void)state;
     model_write(&text, &model_plain);
     test_write("box.gltf", text.text, text.length);
     rlf_scene scene;
@@ -492,9 +472,8 @@ static void a_shape_wears_a_model(void **state)
     rlf_scene_destroy(&scene);
 }
 
-static void scene_errors_name_the_body(void **state)
+TEST_CASE(scene_errors_name_the_body)
 {
-    (void)state;
     rlf_scene scene;
     test_expect_error(parse("{\"bodies\":[{\"model\":\"none.glb\"}]}", &scene), RLF_ERROR_IO,
                       "scene.json", "bodies[0].model", NULL);
@@ -502,33 +481,4 @@ static void scene_errors_name_the_body(void **state)
                       "scene.json", "bodies[0].model", NULL);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(gltf_stands_upright, set_up, test_folder_remove),
-        cmocka_unit_test_setup_teardown(nodes_place_meshes, set_up, test_folder_remove),
-        cmocka_unit_test_setup_teardown(texture_and_color_are_read, set_up, test_folder_remove),
-        cmocka_unit_test_setup_teardown(metal_roughness_and_normals_are_read, set_up,
-                                        test_folder_remove),
-        cmocka_unit_test_setup_teardown(two_sided_faces_are_there_twice, set_up,
-                                        test_folder_remove),
-        cmocka_unit_test_setup_teardown(obj_is_taken_as_it_is, set_up, test_folder_remove),
-        cmocka_unit_test_setup_teardown(missing_texture_is_one_warning, set_up, test_folder_remove),
-        cmocka_unit_test_setup_teardown(huge_or_broken_texture_is_one_warning, set_up,
-                                        test_folder_remove),
-        cmocka_unit_test_setup_teardown(bad_files_fail_in_one_line, set_up, test_folder_remove),
-        cmocka_unit_test_setup_teardown(bad_numbers_name_the_vertex, set_up, test_folder_remove),
-        cmocka_unit_test_setup_teardown(truncated_gltf_fails, set_up, test_folder_remove),
-        cmocka_unit_test_setup_teardown(bombs_are_refused, set_up, test_folder_remove),
-        cmocka_unit_test_setup_teardown(missing_materials_are_named, set_up, test_folder_remove),
-        cmocka_unit_test_setup_teardown(dented_faces_keep_their_area, set_up, test_folder_remove),
-        cmocka_unit_test_setup_teardown(edges_stay_sharp, set_up, test_folder_remove),
-        cmocka_unit_test_setup_teardown(pictures_have_a_budget, set_up, test_folder_remove),
-        cmocka_unit_test_setup_teardown(short_memory_is_the_error, set_up, test_folder_remove),
-        cmocka_unit_test_setup_teardown(too_many_triangles_fail, set_up, test_folder_remove),
-        cmocka_unit_test_setup_teardown(id_tells_models_apart, set_up, test_folder_remove),
-        cmocka_unit_test_setup_teardown(a_shape_wears_a_model, set_up, test_folder_remove),
-        cmocka_unit_test_setup_teardown(scene_errors_name_the_body, set_up, test_folder_remove),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(set_up, test_folder_remove)

@@ -80,9 +80,8 @@ static void make_folders(void)
 }
 
 /* Whoever made a model may not have files read that are elsewhere. */
-static void buffers_are_read_from_the_folder_only(void **state)
+TEST_CASE(buffers_are_read_from_the_folder_only)
 {
-    (void)state;
     make_folders();
     char *whole = realpath(test_path("secret.bin"), NULL);
     assert_non_null(whole);
@@ -133,9 +132,8 @@ static void load_textured(const char *uri, int32_t textures)
     rlf_model_destroy(&model);
 }
 
-static void textures_are_read_from_the_folder_only(void **state)
+TEST_CASE(textures_are_read_from_the_folder_only)
 {
-    (void)state;
     make_folders();
     write_paint(4, 4);
     char *whole = realpath(test_path("paint.png"), NULL);
@@ -151,9 +149,8 @@ static void textures_are_read_from_the_folder_only(void **state)
 }
 
 /* The library of materials and its textures. */
-static void materials_are_read_from_the_folder_only(void **state)
+TEST_CASE(materials_are_read_from_the_folder_only)
 {
-    (void)state;
     make_folders();
     test_write_text("secret.mtl", "newmtl m\nKd 0.25 0.5 0.75\n");
     char *whole = realpath(test_path("secret.mtl"), NULL);
@@ -183,15 +180,4 @@ static void materials_are_read_from_the_folder_only(void **state)
     rlf_model_destroy(&model);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(buffers_are_read_from_the_folder_only, set_up,
-                                        test_folder_remove),
-        cmocka_unit_test_setup_teardown(textures_are_read_from_the_folder_only, set_up,
-                                        test_folder_remove),
-        cmocka_unit_test_setup_teardown(materials_are_read_from_the_folder_only, set_up,
-                                        test_folder_remove),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(set_up, test_folder_remove)

@@ -9,9 +9,8 @@
 #include <signal.h>
 #include <sys/resource.h>
 
-static void npy_has_an_aligned_header_and_the_data(void **state)
+TEST_CASE(npy_has_an_aligned_header_and_the_data)
 {
-    (void)state;
     const float values[2 * 3] = {0.0F, 1.5F, -2.0F, 3e-20F, 1e20F, 0.1F};
     const int64_t shape[2] = {2, 3};
     assert_int_equal(rlf_npy_write(test_path("a.npy"), RLF_NPY_F32, values, shape, 2), RLF_OK);
@@ -31,9 +30,8 @@ static void npy_has_an_aligned_header_and_the_data(void **state)
     free(file);
 }
 
-static void npy_types_and_ranks(void **state)
+TEST_CASE(npy_types_and_ranks)
 {
-    (void)state;
     const int32_t integers[4] = {1, -2, 3, 4};
     const int64_t line[1] = {4};
     const int64_t block[4] = {1, 2, 2, 1};
@@ -73,9 +71,8 @@ static rlf_surface small_surface(void)
     return s;
 }
 
-static void ply_holds_valid_points_and_whole_triangles(void **state)
+TEST_CASE(ply_holds_valid_points_and_whole_triangles)
 {
-    (void)state;
     rlf_surface surface = small_surface();
     const uint32_t indices[6] = {0, 1, 2, 1, 3, 2};
     assert_int_equal(rlf_ply_write(test_path("s.ply"), &surface, indices, 6), RLF_OK);
@@ -129,9 +126,8 @@ static rlf_pipeline_output sample_output(rlf_surface *surface, rlf_snapshot *sna
     return output;
 }
 
-static void logs_have_the_fixed_columns(void **state)
+TEST_CASE(logs_have_the_fixed_columns)
 {
-    (void)state;
     rlf_surface surface;
     rlf_snapshot snapshot;
     rlf_pipeline_output output = sample_output(&surface, &snapshot);
@@ -169,9 +165,8 @@ static void logs_have_the_fixed_columns(void **state)
     }
 }
 
-static void numbers_have_a_decimal_point(void **state)
+TEST_CASE(numbers_have_a_decimal_point)
 {
-    (void)state;
     char text[IO_NUMBER_SIZE];
     io_number_format(-1.0 / 3.0, text);
     assert_string_equal(text, "-0.333333333");
@@ -234,9 +229,8 @@ static bool has_part(void)
 }
 
 /* A limit on file sizes fails in the middle of a file like a disk that fills. */
-static void full_disk_leaves_the_old_file_alone(void **state)
+TEST_CASE(full_disk_leaves_the_old_file_alone)
 {
-    (void)state;
     struct rlimit old;
     assert_int_equal(getrlimit(RLIMIT_FSIZE, &old), 0);
     signal(SIGXFSZ, SIG_IGN);
@@ -257,9 +251,8 @@ static void full_disk_leaves_the_old_file_alone(void **state)
     }
 }
 
-static void full_device_is_reported(void **state)
+TEST_CASE(full_device_is_reported)
 {
-    (void)state;
     if (!test_exists("/dev/full")) {
         print_message("SKIPPED: no /dev/full\n");
         skip();
@@ -271,9 +264,8 @@ static void full_device_is_reported(void **state)
     assert_true(test_exists("/dev/full"));
 }
 
-static void full_disk_fails_the_log(void **state)
+TEST_CASE(full_disk_fails_the_log)
 {
-    (void)state;
     rlf_surface surface;
     rlf_snapshot snapshot;
     rlf_pipeline_output output = sample_output(&surface, &snapshot);
@@ -302,9 +294,8 @@ static void full_disk_fails_the_log(void **state)
     assert_false(test_exists(test_path("full/bodies.csv")));
 }
 
-static void unwritable_places_are_named(void **state)
+TEST_CASE(unwritable_places_are_named)
 {
-    (void)state;
     test_write_text("plain", "x");
     rlf_csv_log *log = NULL;
     for (int kind = 0; kind < KINDS; kind++) {
@@ -327,9 +318,8 @@ static void unwritable_places_are_named(void **state)
                       RLF_ERROR_INVALID, "f.y4m", "0 frames per second", "use");
 }
 
-static void folders_are_made_with_their_parents(void **state)
+TEST_CASE(folders_are_made_with_their_parents)
 {
-    (void)state;
     assert_int_equal(rlf_make_folder(test_path("p/q//r/")), RLF_OK);
     assert_true(test_exists(test_path("p/q/r")));
     assert_int_equal(rlf_make_folder(test_path("p/q/r")), RLF_OK);
@@ -344,9 +334,8 @@ static void folders_are_made_with_their_parents(void **state)
 }
 
 /* A file is there whole or as it was; a check changes nothing. */
-static void bytes_are_written_whole(void **state)
+TEST_CASE(bytes_are_written_whole)
 {
-    (void)state;
     assert_int_equal(rlf_file_check(test_path("bytes")), RLF_OK);
     assert_false(test_exists(test_path("bytes")));
     assert_false(has_part());
@@ -366,20 +355,4 @@ static void bytes_are_written_whole(void **state)
     assert_int_equal(rlf_file_write("/dev/null", "x", 1), RLF_OK);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(npy_has_an_aligned_header_and_the_data),
-        cmocka_unit_test(npy_types_and_ranks),
-        cmocka_unit_test(ply_holds_valid_points_and_whole_triangles),
-        cmocka_unit_test(logs_have_the_fixed_columns),
-        cmocka_unit_test(numbers_have_a_decimal_point),
-        cmocka_unit_test(full_disk_leaves_the_old_file_alone),
-        cmocka_unit_test(full_device_is_reported),
-        cmocka_unit_test(full_disk_fails_the_log),
-        cmocka_unit_test(unwritable_places_are_named),
-        cmocka_unit_test(folders_are_made_with_their_parents),
-        cmocka_unit_test(bytes_are_written_whole),
-    };
-    return cmocka_run_group_tests(tests, test_folder_make, test_folder_remove);
-}
+TEST_GROUP(test_folder_make, test_folder_remove)

@@ -108,9 +108,8 @@ static void make_compressed(void)
 
 static void (*const makers[3])(void) = {make_ascii, make_binary, make_compressed};
 
-static void all_three_ways_give_the_same_frame(void **state)
+TEST_CASE_WITH(all_three_ways_give_the_same_frame, test_folder_make, test_folder_remove)
 {
-    (void)state;
     for (int k = 0; k < 3; k++) {
         makers[k]();
         test_write("cloud.pcd", file_data, file_size);
@@ -140,9 +139,8 @@ static void all_three_ways_give_the_same_frame(void **state)
     }
 }
 
-static void references_of_lzf_may_overlap(void **state)
+TEST_CASE(references_of_lzf_may_overlap)
 {
-    (void)state;
     /* "ab", then 10 bytes from 2 back; then the long form: 7 + 3 + 2 bytes from 1 back. */
     const uint8_t in[] = {1, 'a', 'b', 7 << 5, 1, 1, 7 << 5, 3, 0};
     uint8_t out[24];
@@ -172,9 +170,8 @@ static rlf_result read_points(const uint8_t *data, size_t size)
     return result;
 }
 
-static void every_prefix_is_refused(void **state)
+TEST_CASE(every_prefix_is_refused)
 {
-    (void)state;
     for (int k = 0; k < 3; k++) {
         makers[k]();
         assert_int_equal(read_points(file_data, file_size), RLF_OK);
@@ -188,9 +185,8 @@ static void every_prefix_is_refused(void **state)
     }
 }
 
-static void claims_are_not_believed(void **state)
+TEST_CASE(claims_are_not_believed)
 {
-    (void)state;
     const struct {
         const char *text;
         rlf_result result;
@@ -224,9 +220,8 @@ static void claims_are_not_believed(void **state)
     }
 }
 
-static void without_a_pinhole_a_calibration_is_asked_for(void **state)
+TEST_CASE_WITH(without_a_pinhole_a_calibration_is_asked_for, test_folder_make, test_folder_remove)
 {
-    (void)state;
     make_binary();
     const char *names[] = {"FIELDS label x y z", "FIELDS label y x z"}; /* not the camera's axes */
     char *at = strstr((char *)file_data, names[0]);
@@ -248,9 +243,8 @@ static void without_a_pinhole_a_calibration_is_asked_for(void **state)
                       NULL);
 }
 
-static void a_real_cloud_is_read(void **state)
+TEST_CASE(a_real_cloud_is_read)
 {
-    (void)state;
     const char *path = RLF_TEST_SHARED "/data/labelled/mOSD_learn13/cloud.pcd";
     if (!test_exists(path)) {
         print_message("SKIPPED: no %s\n", path);
@@ -262,18 +256,4 @@ static void a_real_cloud_is_read(void **state)
     assert_true(fabs(c->fx - 525.0) < 0.01 && fabs(c->fy - 525.0) < 0.01);
     assert_true(fabs(c->cx - 319.5) < 0.01 && fabs(c->cy - 239.5) < 0.01);
     rlf_source_destroy(&source);
-}
-
-int main(void)
-{
-#define FOLDER_TEST(f) cmocka_unit_test_setup_teardown(f, test_folder_make, test_folder_remove)
-    const struct CMUnitTest tests[] = {
-        FOLDER_TEST(all_three_ways_give_the_same_frame),
-        cmocka_unit_test(references_of_lzf_may_overlap),
-        cmocka_unit_test(every_prefix_is_refused),
-        cmocka_unit_test(claims_are_not_believed),
-        FOLDER_TEST(without_a_pinhole_a_calibration_is_asked_for),
-        cmocka_unit_test(a_real_cloud_is_read),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

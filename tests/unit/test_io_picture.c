@@ -7,9 +7,8 @@
 #include "relief/io.h"
 #include "test.h"
 
-static void depth_png_round_trip(void **state)
+TEST_CASE(depth_png_round_trip)
 {
-    (void)state;
     enum { W = 37, H = 11 };
     uint16_t depth[W * H];
     for (int i = 0; i < W * H; i++) {
@@ -29,9 +28,8 @@ static void depth_png_round_trip(void **state)
     rlf_free(got);
 }
 
-static void color_png_round_trip_with_stride(void **state)
+TEST_CASE(color_png_round_trip_with_stride)
 {
-    (void)state;
     enum { W = 9, H = 7, STRIDE = W * 4 + 12 };
     uint8_t data[STRIDE * H];
     for (int i = 0; i < STRIDE * H; i++) {
@@ -49,9 +47,8 @@ static void color_png_round_trip_with_stride(void **state)
     rlf_free(got.data);
 }
 
-static void grey_png_becomes_opaque_rgba(void **state)
+TEST_CASE(grey_png_becomes_opaque_rgba)
 {
-    (void)state;
     uint8_t data[6] = {0, 1, 100, 200, 254, 255};
     rlf_plane_u8 plane = {data, 3, 2, 3};
     assert_int_equal(rlf_png_write_u8(test_path("g.png"), &plane), RLF_OK);
@@ -65,9 +62,8 @@ static void grey_png_becomes_opaque_rgba(void **state)
 }
 
 /* 2 x 1 pixels: 0 1 0x0102 and 0xffff 0x8000 7. */
-static void sixteen_bit_color_keeps_its_bits(void **state)
+TEST_CASE(sixteen_bit_color_keeps_its_bits)
 {
-    (void)state;
     static const uint8_t png[78] = {
         0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49,
         0x48, 0x44, 0x52, 0x00, 0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x01, 0x10, 0x02,
@@ -91,9 +87,8 @@ static void sixteen_bit_color_keeps_its_bits(void **state)
                       RLF_ERROR_FORMAT, "d.png", "16-bit grey", "16-bit colour PNG");
 }
 
-static void sixteen_bit_png_reads_as_picture(void **state)
+TEST_CASE(sixteen_bit_png_reads_as_picture)
 {
-    (void)state;
     const uint16_t data[2] = {0x0000, 0xFFFF};
     assert_int_equal(rlf_png_write_u16(test_path("s.png"), data, 2, 1), RLF_OK);
     rlf_image_rgba8 got;
@@ -103,9 +98,8 @@ static void sixteen_bit_png_reads_as_picture(void **state)
     rlf_free(got.data);
 }
 
-static void jpeg_is_red_and_blue(void **state)
+TEST_CASE(jpeg_is_red_and_blue)
 {
-    (void)state;
     test_write("a.jpg", jpeg_sample, sizeof(jpeg_sample));
     rlf_image_rgba8 got;
     assert_int_equal(rlf_picture_read(test_path("a.jpg"), &got), RLF_OK);
@@ -119,9 +113,8 @@ static void jpeg_is_red_and_blue(void **state)
 }
 
 /* A PNG's colours are not multiplied by its alpha; what is clear or opaque stays as it is. */
-static void premultiplied_colors_are_divided(void **state)
+TEST_CASE(premultiplied_colors_are_divided)
 {
-    (void)state;
     uint8_t data[16] = {50, 20, 0, 100, 0, 0, 0, 0, 7, 8, 9, 255, 64, 128, 1, 128};
     const uint8_t expected[16] = {128, 51, 0, 100, 0, 0, 0, 0, 7, 8, 9, 255, 128, 255, 2, 128};
     const rlf_image_rgba8 image = {data, 4, 1, 16};
@@ -133,9 +126,8 @@ static void premultiplied_colors_are_divided(void **state)
     rlf_free(got.data);
 }
 
-static void alpha_is_dropped_when_asked(void **state)
+TEST_CASE(alpha_is_dropped_when_asked)
 {
-    (void)state;
     uint8_t data[8] = {10, 20, 30, 0, 40, 50, 60, 128};
     rlf_image_rgba8 image = {data, 2, 1, 8};
     assert_int_equal(rlf_png_write_rgba(test_path("t.png"), &image), RLF_OK);
@@ -171,9 +163,8 @@ static void check_all_prefixes(const char *name, const uint8_t *data, size_t siz
     }
 }
 
-static void truncated_pictures_are_refused(void **state)
+TEST_CASE(truncated_pictures_are_refused)
 {
-    (void)state;
     uint16_t depth[20 * 10];
     for (int i = 0; i < 200; i++) {
         depth[i] = (uint16_t)(500 + i);
@@ -187,9 +178,8 @@ static void truncated_pictures_are_refused(void **state)
     check_all_prefixes("a.jpg", jpeg_sample, sizeof(jpeg_sample), false);
 }
 
-static void damaged_data_is_refused(void **state)
+TEST_CASE(damaged_data_is_refused)
 {
-    (void)state;
     uint16_t depth[64] = {1, 2, 3};
     assert_int_equal(rlf_png_write_u16(test_path("x.png"), depth, 8, 8), RLF_OK);
     size_t size;
@@ -205,9 +195,8 @@ static void damaged_data_is_refused(void **state)
     assert_null(got);
 }
 
-static void stray_bytes_before_the_end_of_a_jpeg_are_harmless(void **state)
+TEST_CASE(stray_bytes_before_the_end_of_a_jpeg_are_harmless)
 {
-    (void)state;
     uint8_t data[sizeof(jpeg_sample) + 3];
     size_t body = sizeof(jpeg_sample) - 2;
     memcpy(data, jpeg_sample, body);
@@ -219,9 +208,8 @@ static void stray_bytes_before_the_end_of_a_jpeg_are_harmless(void **state)
     rlf_free(picture.data);
 }
 
-static void wrong_kinds_are_named(void **state)
+TEST_CASE(wrong_kinds_are_named)
 {
-    (void)state;
     uint8_t pixels[16] = {0};
     rlf_plane_u8 plane = {pixels, 4, 2, 4};
     rlf_image_rgba8 image = {pixels, 2, 2, 8};
@@ -253,9 +241,8 @@ static void wrong_kinds_are_named(void **state)
 }
 
 /* 16384 x 16384 in 70 bytes must not allocate a gigabyte; one pixel more is too large. */
-static void absurd_sizes_cost_nothing(void **state)
+TEST_CASE(absurd_sizes_cost_nothing)
 {
-    (void)state;
     uint16_t pixel = 7;
     assert_int_equal(rlf_png_write_u16(test_path("big.png"), &pixel, 1, 1), RLF_OK);
     size_t size;
@@ -278,9 +265,8 @@ static void absurd_sizes_cost_nothing(void **state)
     free(file);
 }
 
-static void decoding_into_given_memory_checks_the_size(void **state)
+TEST_CASE(decoding_into_given_memory_checks_the_size)
 {
-    (void)state;
     io_bytes bytes = {"rgb/3.jpg", jpeg_sample, sizeof(jpeg_sample)};
     uint8_t pixels[16 * 8 * 4];
     io_picture fits = {.width = 16, .height = 8, .data = pixels};
@@ -292,23 +278,4 @@ static void decoding_into_given_memory_checks_the_size(void **state)
                       "camera.json");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(depth_png_round_trip),
-        cmocka_unit_test(color_png_round_trip_with_stride),
-        cmocka_unit_test(grey_png_becomes_opaque_rgba),
-        cmocka_unit_test(sixteen_bit_color_keeps_its_bits),
-        cmocka_unit_test(sixteen_bit_png_reads_as_picture),
-        cmocka_unit_test(jpeg_is_red_and_blue),
-        cmocka_unit_test(premultiplied_colors_are_divided),
-        cmocka_unit_test(alpha_is_dropped_when_asked),
-        cmocka_unit_test(truncated_pictures_are_refused),
-        cmocka_unit_test(damaged_data_is_refused),
-        cmocka_unit_test(stray_bytes_before_the_end_of_a_jpeg_are_harmless),
-        cmocka_unit_test(wrong_kinds_are_named),
-        cmocka_unit_test(absurd_sizes_cost_nothing),
-        cmocka_unit_test(decoding_into_given_memory_checks_the_size),
-    };
-    return cmocka_run_group_tests(tests, test_folder_make, test_folder_remove);
-}
+TEST_GROUP(test_folder_make, test_folder_remove)

@@ -58,9 +58,8 @@ static void expect_pixel(const sample *s, const uint8_t *got, const uint8_t *wan
     assert_int_equal(got[3], 255);
 }
 
-static void colors_of_every_encoding(void **state)
+TEST_CASE(colors_of_every_encoding)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof(samples) / sizeof(samples[0]); i++) {
         const sample *s = &samples[i];
         const io_pixels in = pixels_of(s);
@@ -74,9 +73,8 @@ static void colors_of_every_encoding(void **state)
     }
 }
 
-static void pictures_cut_anywhere_are_refused(void **state)
+TEST_CASE(pictures_cut_anywhere_are_refused)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof(samples) / sizeof(samples[0]); i++) {
         io_pixels in = pixels_of(&samples[i]);
         for (in.size = 0; in.size < samples[i].size; in.size++) {
@@ -94,9 +92,8 @@ static void pictures_cut_anywhere_are_refused(void **state)
     }
 }
 
-static void sizes_that_lie_are_refused(void **state)
+TEST_CASE(sizes_that_lie_are_refused)
 {
-    (void)state;
     uint8_t data[16] = {0};
     uint16_t depth[4];
     double units;
@@ -122,9 +119,8 @@ static void sizes_that_lie_are_refused(void **state)
     test_expect_error(io_pixels_to_rgba(&in, &out), RLF_ERROR_FORMAT, "topic", "3 x 1 ", "2 x 1");
 }
 
-static void counts_are_taken_as_they_are(void **state)
+TEST_CASE(counts_are_taken_as_they_are)
 {
-    (void)state;
     const uint8_t data[] = {0x34, 0x12, 0xFF, 0xFF, 9, 9, 1, 0, 0, 0};
     io_pixels in = {"topic", "16UC1", 2, 2, 6, false, data, sizeof(data)};
     uint16_t depth[4];
@@ -139,9 +135,8 @@ static void counts_are_taken_as_they_are(void **state)
     assert_int_equal(depth[0], 0x3412);
 }
 
-static void metres_become_counts(void **state)
+TEST_CASE(metres_become_counts)
 {
-    (void)state;
     const float metres[8] = {1.5f, 0.0f, -1.0f, NAN, INFINITY, 13.2f, 0.00011f, 13.1f};
     const io_pixels in = {"topic", "32FC1", 8, 1, 32, false, (const uint8_t *)metres, 32};
     uint16_t depth[8];
@@ -167,9 +162,8 @@ static uint8_t *compressed(const uint16_t *counts, float a, float b, size_t *out
     return data;
 }
 
-static void compressed_depth_is_read(void **state)
+TEST_CASE_WITH(compressed_depth_is_read, test_folder_make, test_folder_remove)
 {
-    (void)state;
     /* 1/z = (n - b) / a: with a = 100 and b = 0.5, n = 50 is 100 / 49.5 = 2.0202 m. */
     const uint16_t counts[4] = {50, 0, 100, 65535};
     static io_rvl rvl;
@@ -199,9 +193,8 @@ static void compressed_depth_is_read(void **state)
     free(data);
 }
 
-static void rvl_depth_is_read(void **state)
+TEST_CASE(rvl_depth_is_read)
 {
-    (void)state;
     static io_rvl rvl;
     io_rvl_init(&rvl);
     const uint16_t counts[4] = {1500, 0, 1501, 900};
@@ -222,19 +215,4 @@ static void rvl_depth_is_read(void **state)
         assert_int_equal(io_compressed_depth_decode(&rvl, &part, format, 2, 2, depth, &units),
                          RLF_ERROR_FORMAT);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(colors_of_every_encoding),
-        cmocka_unit_test(pictures_cut_anywhere_are_refused),
-        cmocka_unit_test(sizes_that_lie_are_refused),
-        cmocka_unit_test(counts_are_taken_as_they_are),
-        cmocka_unit_test(metres_become_counts),
-        cmocka_unit_test(rvl_depth_is_read),
-        cmocka_unit_test_setup_teardown(compressed_depth_is_read, test_folder_make,
-                                        test_folder_remove),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,9 +28,8 @@ static void close_source(rlf_source *s)
     assert_int_equal(stub_realsense2_get()->fault.objects, 0);
 }
 
-static void lists_cameras(void **state)
+TEST_CASE(lists_cameras)
 {
-    (void)state;
     stub_realsense2_get()->fault.devices = 2;
     rlf_source_entry entries[1];
     assert_null(io_backend_realsense.unavailable());
@@ -90,9 +89,8 @@ static void check_frame(const rlf_frame *f, uint64_t number)
     }
 }
 
-static void streams_depth_and_color(void **state)
+TEST_CASE(streams_depth_and_color)
 {
-    (void)state;
     rlf_source *s = stub_open("realsense:");
     check_rig(rlf_source_get_info(s));
     for (uint64_t n = 1; n <= 4; n++) {
@@ -102,9 +100,8 @@ static void streams_depth_and_color(void **state)
     close_source(s);
 }
 
-static void reads_modes_and_serial(void **state)
+TEST_CASE(reads_modes_and_serial)
 {
-    (void)state;
     stub_realsense2_get()->fault.devices = 3;
     rlf_source *s = stub_open("realsense:?serial=0002&mode=640x480@30&color=640x480");
     assert_int_equal(rlf_source_get_info(s)->rig.depth.width, 640);
@@ -123,9 +120,8 @@ static void reads_modes_and_serial(void **state)
 }
 
 /* USB 2, a camera without colour, and other pixel formats. */
-static void takes_what_the_camera_has(void **state)
+TEST_CASE(takes_what_the_camera_has)
 {
-    (void)state;
     stub_realsense2 *stub = stub_realsense2_get();
     stub->has_big_modes = false;
     rlf_source *s = stub_open("realsense:");
@@ -159,7 +155,7 @@ static void takes_what_the_camera_has(void **state)
 }
 
 /* Relief's lens puts points where the library does, whatever the model is called. */
-static void fits_lens(void **state)
+TEST_CASE(fits_lens)
 {
     stub_realsense2 *stub = stub_realsense2_get();
     (void)state;
@@ -189,9 +185,8 @@ static void fits_lens(void **state)
     }
 }
 
-static void reads_units_and_noise(void **state)
+TEST_CASE(reads_units_and_noise)
 {
-    (void)state;
     stub_realsense2_get()->depth_scale = 0.00025F;
     stub_realsense2_get()->baseline_mm = 0.0F;
     rlf_source *s = stub_open("realsense:");
@@ -201,9 +196,8 @@ static void reads_units_and_noise(void **state)
     close_source(s);
 }
 
-static void counts_lost_and_doubled(void **state)
+TEST_CASE(counts_lost_and_doubled)
 {
-    (void)state;
     stub_fault *fault = &stub_realsense2_get()->fault;
     fault->drop_at = 3;
     fault->drop_count = 5;
@@ -233,9 +227,8 @@ static void counts_lost_and_doubled(void **state)
 }
 
 /* The last frame stays whole while nothing new comes. */
-static void keeps_frame_in_silence(void **state)
+TEST_CASE(keeps_frame_in_silence)
 {
-    (void)state;
     stub_realsense2_get()->fault.stall_at = 2;
     stub_realsense2_get()->fault.stall_count = 6;
     rlf_source *s = stub_open("realsense:");
@@ -252,9 +245,8 @@ static void keeps_frame_in_silence(void **state)
     close_source(s);
 }
 
-static void tells_clock_changes(void **state)
+TEST_CASE(tells_clock_changes)
 {
-    (void)state;
     stub_realsense2_get()->fault.restart_at = 4;
     stub_realsense2_get()->late_clock_at = 7;
     rlf_source *s = stub_open("realsense:");
@@ -271,9 +263,8 @@ static void tells_clock_changes(void **state)
     close_source(s);
 }
 
-static void tells_faults(void **state)
+TEST_CASE(tells_faults)
 {
-    (void)state;
     stub_fault *fault = &stub_realsense2_get()->fault;
     fault->unplug_at = 3;
     rlf_source *s = stub_open("realsense:");
@@ -300,9 +291,8 @@ static void tells_faults(void **state)
     assert_int_equal(fault->objects, 0);
 }
 
-static void survives_broken_cameras(void **state)
+TEST_CASE(survives_broken_cameras)
 {
-    (void)state;
     stub_realsense2 *stub = stub_realsense2_get();
     stub->fault.damage_depth_at = 2;
     rlf_source *s = stub_open("realsense:");
@@ -333,9 +323,8 @@ static void survives_broken_cameras(void **state)
 }
 
 /* As a program opens it: the plug is pulled after some frames and comes back. */
-static void comes_back(void **state)
+TEST_CASE(comes_back)
 {
-    (void)state;
     stub_fault *fault = &stub_realsense2_get()->fault;
     fault->is_paced = true;
     fault->unplug_at = 5;
@@ -365,21 +354,4 @@ static void comes_back(void **state)
     close_source(s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(lists_cameras, set_up),
-        cmocka_unit_test_setup(streams_depth_and_color, set_up),
-        cmocka_unit_test_setup(reads_modes_and_serial, set_up),
-        cmocka_unit_test_setup(takes_what_the_camera_has, set_up),
-        cmocka_unit_test_setup(fits_lens, set_up),
-        cmocka_unit_test_setup(reads_units_and_noise, set_up),
-        cmocka_unit_test_setup(counts_lost_and_doubled, set_up),
-        cmocka_unit_test_setup(keeps_frame_in_silence, set_up),
-        cmocka_unit_test_setup(tells_clock_changes, set_up),
-        cmocka_unit_test_setup(tells_faults, set_up),
-        cmocka_unit_test_setup(survives_broken_cameras, set_up),
-        cmocka_unit_test_setup(comes_back, set_up),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(set_up, NULL)

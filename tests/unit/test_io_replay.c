@@ -74,9 +74,8 @@ static int next_value(rlf_source *source, rlf_frame *frame)
     return frame->depth_u16[W * H - 1] - 100;
 }
 
-static void a_loop_goes_on_in_time_and_count(void **state)
+TEST_CASE_WITH(a_loop_goes_on_in_time_and_count, make_clip, test_folder_remove)
 {
-    (void)state;
     rlf_source *source = open_with("loop=1");
     assert_int_equal(rlf_source_get_info(source)->frame_count, -1);
     rlf_frame frame;
@@ -94,9 +93,8 @@ static void a_loop_goes_on_in_time_and_count(void **state)
     rlf_source_destroy(&source);
 }
 
-static void a_part_is_played(void **state)
+TEST_CASE_WITH(a_part_is_played, make_clip, test_folder_remove)
 {
-    (void)state;
     rlf_source *source = open_with("start=3&count=4");
     assert_int_equal(rlf_source_get_info(source)->frame_count, 4);
     rlf_frame frame;
@@ -125,9 +123,8 @@ static void a_part_is_played(void **state)
     rlf_source_destroy(&source);
 }
 
-static void real_time_waits_and_never_for_long(void **state)
+TEST_CASE_WITH(real_time_waits_and_never_for_long, make_clip, test_folder_remove)
 {
-    (void)state;
     rlf_source *source = open_with("speed=0.25"); /* one frame in 160 ms */
     rlf_frame frame;
     assert_int_equal(next_value(source, &frame), 0);
@@ -162,9 +159,8 @@ static void real_time_waits_and_never_for_long(void **state)
     rlf_source_destroy(&source);
 }
 
-static void lost_frames_are_the_same_every_time_and_counted(void **state)
+TEST_CASE_WITH(lost_frames_are_the_same_every_time_and_counted, make_clip, test_folder_remove)
 {
-    (void)state;
     uint64_t sequences[2][400];
     int counts[2] = {0, 0};
     for (int run = 0; run < 2; run++) {
@@ -189,9 +185,8 @@ static void lost_frames_are_the_same_every_time_and_counted(void **state)
     rlf_source_destroy(&source);
 }
 
-static void aligned_is_told_by_the_user(void **state)
+TEST_CASE_WITH(aligned_is_told_by_the_user, make_clip, test_folder_remove)
 {
-    (void)state;
     rlf_source *source = open_with("aligned=1");
     const rlf_rig *rig = &rlf_source_get_info(source)->rig;
     assert_true(rig->T_color_depth.p.x == 0.0);
@@ -208,9 +203,8 @@ static void aligned_is_told_by_the_user(void **state)
     rlf_source_destroy(&source);
 }
 
-static void wrong_keys_and_values_are_told(void **state)
+TEST_CASE_WITH(wrong_keys_and_values_are_told, make_clip, test_folder_remove)
 {
-    (void)state;
     const struct {
         const char *keys, *part, *cure;
     } cases[] = {
@@ -235,9 +229,8 @@ static void wrong_keys_and_values_are_told(void **state)
     }
 }
 
-static void the_nearest_word_is_found(void **state)
+TEST_CASE(the_nearest_word_is_found)
 {
-    (void)state;
     char word[32];
     assert_true(rlf_word_nearest("loop speed start", "statr", word, sizeof(word)));
     assert_string_equal(word, "start");
@@ -248,19 +241,4 @@ static void the_nearest_word_is_found(void **state)
                                   sizeof(word)));
     assert_true(io_word_is_in("loop speed", "speed"));
     assert_false(io_word_is_in("loop speeds", "speed"));
-}
-
-int main(void)
-{
-#define CLIP_TEST(f) cmocka_unit_test_setup_teardown(f, make_clip, test_folder_remove)
-    const struct CMUnitTest tests[] = {
-        CLIP_TEST(a_loop_goes_on_in_time_and_count),
-        CLIP_TEST(a_part_is_played),
-        CLIP_TEST(real_time_waits_and_never_for_long),
-        CLIP_TEST(lost_frames_are_the_same_every_time_and_counted),
-        CLIP_TEST(aligned_is_told_by_the_user),
-        CLIP_TEST(wrong_keys_and_values_are_told),
-        cmocka_unit_test(the_nearest_word_is_found),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

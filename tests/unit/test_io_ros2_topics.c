@@ -112,18 +112,16 @@ static void check_choice(const driver *d, bool is_packed)
     assert_true(io_ros2_has_depth(d->topics, d->count, &wish));
 }
 
-static void test_drivers(void **state)
+TEST_CASE(test_drivers)
 {
-    (void)state;
     for (size_t i = 0; i < DRIVER_COUNT; i++) {
         check_choice(&drivers[i], false);
         check_choice(&drivers[i], true);
     }
 }
 
-static void test_cameras_are_told(void **state)
+TEST_CASE(test_cameras_are_told)
 {
-    (void)state;
     for (size_t i = 0; i < DRIVER_COUNT; i++) {
         char camera[IO_ROS2_TOPIC_MAX];
         int32_t told = 0;
@@ -139,9 +137,8 @@ static void test_cameras_are_told(void **state)
     }
 }
 
-static void test_named_topics_alone(void **state)
+TEST_CASE(test_named_topics_alone)
 {
-    (void)state;
     const driver *d = &drivers[1];
     const io_ros2_wish wish = {
         .place = "", .depth = "/other/depth/image_raw", .color = "/camera/color/image_raw"};
@@ -156,9 +153,8 @@ static void test_named_topics_alone(void **state)
     assert_int_equal(count, 4);
 }
 
-static void test_below(void **state)
+TEST_CASE(test_below)
 {
-    (void)state;
     assert_true(io_ros2_is_below("/camera/depth", "/camera"));
     assert_true(io_ros2_is_below("/camera/depth", "/camera/"));
     assert_true(io_ros2_is_below("/camera/depth", "camera"));
@@ -168,9 +164,8 @@ static void test_below(void **state)
     assert_false(io_ros2_is_below("/cam", "/camera"));
 }
 
-static void test_names(void **state)
+TEST_CASE(test_names)
 {
-    (void)state;
     char out[64];
     assert_true(io_ros2_topic_to_dds("/camera/x", out, sizeof(out)));
     assert_string_equal(out, "rt/camera/x");
@@ -187,16 +182,4 @@ static void test_names(void **state)
     for (size_t i = 0; i < sizeof(strangers) / sizeof(strangers[0]); i++) {
         assert_false(io_ros2_type_from_dds(strangers[i], out, sizeof(out)));
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_drivers),
-        cmocka_unit_test(test_cameras_are_told),
-        cmocka_unit_test(test_named_topics_alone),
-        cmocka_unit_test(test_below),
-        cmocka_unit_test(test_names),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -55,9 +55,8 @@ static void expect_all(rlf_source *source)
     expect_frame(source, 1);
 }
 
-static void frames_and_cameras_are_read(void **state)
+TEST_CASE_WITH(frames_and_cameras_are_read, test_folder_make, test_folder_remove)
 {
-    (void)state;
     save(bag_sample_make(true));
     rlf_source *source = open_bag("");
     const rlf_rig *rig = &rlf_source_get_info(source)->rig;
@@ -77,9 +76,8 @@ static void frames_and_cameras_are_read(void **state)
     rlf_source_destroy(&source);
 }
 
-static void a_bag_without_an_index_is_read(void **state)
+TEST_CASE_WITH(a_bag_without_an_index_is_read, test_folder_make, test_folder_remove)
 {
-    (void)state;
     save(bag_sample_make(false));
     rlf_source *source = open_bag("");
     expect_all(source);
@@ -87,9 +85,8 @@ static void a_bag_without_an_index_is_read(void **state)
 }
 
 /* The header of a chunk is written last: until then it says 0 and what follows has no index. */
-static void a_chunk_that_was_never_ended_is_read(void **state)
+TEST_CASE_WITH(a_chunk_that_was_never_ended_is_read, test_folder_make, test_folder_remove)
 {
-    (void)state;
     bag_file *b = bag_file_new();
     for (int i = 0; i < BAG_SAMPLE_FRAMES; i++) {
         bag_sample_chunk(b, i);
@@ -109,9 +106,8 @@ static void a_chunk_that_was_never_ended_is_read(void **state)
     rlf_source_destroy(&source);
 }
 
-static void lz4_chunks_are_read(void **state)
+TEST_CASE_WITH(lz4_chunks_are_read, test_folder_make, test_folder_remove)
 {
-    (void)state;
     bag_file *b = bag_file_new();
     byte_file *packed = calloc(1, sizeof(*packed));
     for (int i = 0; i < BAG_SAMPLE_FRAMES; i++) {
@@ -134,9 +130,8 @@ static void lz4_chunks_are_read(void **state)
 }
 
 /* Their times are those of recording: unpacking all of them for the stamps would take too long. */
-static void bz2_chunks_are_read(void **state)
+TEST_CASE_WITH(bz2_chunks_are_read, test_folder_make, test_folder_remove)
 {
-    (void)state;
 #ifdef RLF_HAVE_BZ2
     bag_file *b = bag_file_new();
     byte_file *packed = calloc(1, sizeof(*packed));
@@ -168,9 +163,8 @@ static void bz2_chunks_are_read(void **state)
 #endif
 }
 
-static void topics_can_be_chosen(void **state)
+TEST_CASE_WITH(topics_can_be_chosen, test_folder_make, test_folder_remove)
 {
-    (void)state;
     save(bag_sample_make(true));
     rlf_source *source = open_bag("?depth=/camera/depth/image_raw&color=none");
     assert_false(rlf_source_get_info(source)->rig.has_color);
@@ -195,9 +189,8 @@ static void topics_can_be_chosen(void **state)
 }
 
 /* Every prefix: an error line, or the frames that are whole. */
-static void every_prefix_gives_whole_frames(void **state)
+TEST_CASE_WITH(every_prefix_gives_whole_frames, test_folder_make, test_folder_remove)
 {
-    (void)state;
     rlf_set_log(NULL, NULL);
     bag_file *b = bag_sample_make(true);
     int64_t most = 0;
@@ -224,9 +217,8 @@ static void every_prefix_gives_whole_frames(void **state)
 }
 
 /* Sizes that no memory holds cost none. */
-static void chunks_that_lie_are_refused(void **state)
+TEST_CASE_WITH(chunks_that_lie_are_refused, test_folder_make, test_folder_remove)
 {
-    (void)state;
     test_log log = {0};
     rlf_set_log(test_log_line, &log);
     const char *const kinds[3] = {"none", "lz4", "bz2"};
@@ -259,9 +251,8 @@ static void chunks_that_lie_are_refused(void **state)
 }
 
 /* A chunk that claims to be empty has no memory to unpack into. */
-static void a_chunk_that_claims_to_be_empty_is_refused(void **state)
+TEST_CASE_WITH(a_chunk_that_claims_to_be_empty_is_refused, test_folder_make, test_folder_remove)
 {
-    (void)state;
     test_log log = {0};
     rlf_set_log(test_log_line, &log);
     const char *const kinds[3] = {"lz4", "bz2", "none"};
@@ -283,9 +274,8 @@ static void a_chunk_that_claims_to_be_empty_is_refused(void **state)
     rlf_set_log(NULL, NULL);
 }
 
-static void a_file_that_is_no_bag_is_told(void **state)
+TEST_CASE_WITH(a_file_that_is_no_bag_is_told, test_folder_make, test_folder_remove)
 {
-    (void)state;
     rlf_source *source = NULL;
     test_write_text("clip.bag", "#ROSBAG V1.2\nnot for us");
     test_expect_error(rlf_open_source(test_path("clip.bag"), NULL, &source), RLF_ERROR_FORMAT,
@@ -294,9 +284,8 @@ static void a_file_that_is_no_bag_is_told(void **state)
                       "/nowhere.bag", "cannot be opened", "check");
 }
 
-static void without_camera_info_a_file_beside_serves(void **state)
+TEST_CASE_WITH(without_camera_info_a_file_beside_serves, test_folder_make, test_folder_remove)
 {
-    (void)state;
     bag_file *b = bag_file_new();
     bag_file_connect(b, 3, "/depth/image", "sensor_msgs/Image");
     bag_file_connect(b, 4, "/rgb/image", "sensor_msgs/Image");
@@ -322,9 +311,8 @@ static void without_camera_info_a_file_beside_serves(void **state)
 }
 
 /* As librealsense writes them: the reference is the depth stream, units in an option. */
-static void realsense_topics_are_known(void **state)
+TEST_CASE(realsense_topics_are_known)
 {
-    (void)state;
 #ifndef RLF_HAVE_LZ4
     puts("SKIPPED: built without lz4");
     skip();
@@ -352,24 +340,4 @@ static void realsense_topics_are_known(void **state)
     assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
     assert_int_equal(frame.depth_u16[240 * 640 + 320], 1540);
     rlf_source_destroy(&source);
-}
-
-int main(void)
-{
-#define BAG_TEST(f) cmocka_unit_test_setup_teardown(f, test_folder_make, test_folder_remove)
-    const struct CMUnitTest tests[] = {
-        BAG_TEST(frames_and_cameras_are_read),
-        BAG_TEST(a_bag_without_an_index_is_read),
-        BAG_TEST(a_chunk_that_was_never_ended_is_read),
-        BAG_TEST(lz4_chunks_are_read),
-        BAG_TEST(bz2_chunks_are_read),
-        BAG_TEST(topics_can_be_chosen),
-        BAG_TEST(every_prefix_gives_whole_frames),
-        BAG_TEST(chunks_that_lie_are_refused),
-        BAG_TEST(a_chunk_that_claims_to_be_empty_is_refused),
-        BAG_TEST(a_file_that_is_no_bag_is_told),
-        BAG_TEST(without_camera_info_a_file_beside_serves),
-        cmocka_unit_test(realsense_topics_are_known),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -60,9 +60,8 @@ static void draw(int kind, uint32_t seed, uint16_t *out, size_t count)
     }
 }
 
-static void pictures_come_back_bit_by_bit(void **state)
+TEST_CASE(pictures_come_back_bit_by_bit)
 {
-    (void)state;
     uint16_t depth[COUNT];
     for (int kind = 0; kind < 7; kind++) {
         for (uint32_t seed = 0; seed < 20; seed++) {
@@ -76,9 +75,8 @@ static void pictures_come_back_bit_by_bit(void **state)
 }
 
 /* By hand: 2 missing, 3 measured: 10 (zigzag 20 = 4 + 8 * 2), +1 (2), -1 (1); 1 missing, 0. */
-static void bytes_are_those_of_the_paper(void **state)
+TEST_CASE(bytes_are_those_of_the_paper)
 {
-    (void)state;
     const uint16_t depth[6] = {0, 0, 10, 11, 10, 0};
     /* Nibbles 2, 3, 12 2, 2, 1, 1, 0: a word from its highest nibble on, little-endian. */
     const uint8_t want[4] = {0x10, 0x21, 0xC2, 0x23};
@@ -87,9 +85,8 @@ static void bytes_are_those_of_the_paper(void **state)
     assert_memory_equal(bytes, want, 4);
 }
 
-static void cut_bytes_are_refused(void **state)
+TEST_CASE(cut_bytes_are_refused)
 {
-    (void)state;
     uint16_t depth[300], out[300];
     draw(1, 3, depth, 300);
     uint8_t bytes[3 * 300 + 64];
@@ -104,9 +101,8 @@ static void cut_bytes_are_refused(void **state)
 }
 
 /* Any bytes: an answer, and not one byte outside. */
-static void any_bytes_are_survived(void **state)
+TEST_CASE(any_bytes_are_survived)
 {
-    (void)state;
     uint32_t random = 7;
     for (int round = 0; round < 5000; round++) {
         const size_t size = next_random(&random) % 200;
@@ -122,13 +118,4 @@ static void any_bytes_are_survived(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pictures_come_back_bit_by_bit),
-        cmocka_unit_test(bytes_are_those_of_the_paper),
-        cmocka_unit_test(cut_bytes_are_refused),
-        cmocka_unit_test(any_bytes_are_survived),
-    };
-    return cmocka_run_group_tests(tests, make_tables, NULL);
-}
+TEST_GROUP(make_tables, NULL)

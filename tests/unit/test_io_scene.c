@@ -13,9 +13,8 @@ static rlf_result parse(const char *text, rlf_scene *scene)
     return io_scene_parse(&file, test_folder, scene);
 }
 
-static void empty_scene_has_default_gravity(void **state)
+TEST_CASE(empty_scene_has_default_gravity)
 {
-    (void)state;
     rlf_scene scene;
     assert_int_equal(parse("{}", &scene), RLF_OK);
     assert_int_equal(scene.body_count, 0);
@@ -35,9 +34,8 @@ static void empty_scene_has_default_gravity(void **state)
     rlf_scene_destroy(&scene);
 }
 
-static void events_of_hands_are_bound(void **state)
+TEST_CASE(events_of_hands_are_bound)
 {
-    (void)state;
     rlf_scene scene;
     assert_int_equal(parse("{\"on\":{\"pinch\":\"spawn\",\"swipe_left\":\"reset\"}}", &scene),
                      RLF_OK);
@@ -55,9 +53,8 @@ static void events_of_hands_are_bound(void **state)
     test_expect_error(parse("{\"on\":[]}", &scene), RLF_ERROR_INVALID, "on", "must be", "object");
 }
 
-static void every_key_is_read(void **state)
+TEST_CASE(every_key_is_read)
 {
-    (void)state;
     test_write_text(
         "scene.json",
         "{\"gravity\":[1,2,3],\"bodies\":["
@@ -161,9 +158,8 @@ static const struct {
      "bodies[1]"},
 };
 
-static void broken_scenes_are_refused_with_one_clear_line(void **state)
+TEST_CASE(broken_scenes_are_refused_with_one_clear_line)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof(broken_scenes) / sizeof(broken_scenes[0]); i++) {
         rlf_scene scene;
         test_expect_error(parse(broken_scenes[i].text, &scene), broken_scenes[i].result,
@@ -199,9 +195,8 @@ static void check_box_hull(const rlf_hull *hull)
     }
 }
 
-static void hull_is_centred_and_faces_outwards(void **state)
+TEST_CASE(hull_is_centred_and_faces_outwards)
 {
-    (void)state;
     const char *const models[3] = {
         "# box\no box\n" BOX_VERTICES "vn 0 0 1\n" BOX_SIDES BOX_ENDS,
         BOX_VERTICES
@@ -219,9 +214,8 @@ static void hull_is_centred_and_faces_outwards(void **state)
     }
 }
 
-static void broken_hulls_are_refused(void **state)
+TEST_CASE(broken_hulls_are_refused)
 {
-    (void)state;
     const struct {
         const char *text, *part;
     } models[] = {
@@ -250,15 +244,4 @@ static void broken_hulls_are_refused(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(empty_scene_has_default_gravity),
-        cmocka_unit_test(events_of_hands_are_bound),
-        cmocka_unit_test(every_key_is_read),
-        cmocka_unit_test(broken_scenes_are_refused_with_one_clear_line),
-        cmocka_unit_test(hull_is_centred_and_faces_outwards),
-        cmocka_unit_test(broken_hulls_are_refused),
-    };
-    return cmocka_run_group_tests(tests, test_folder_make, test_folder_remove);
-}
+TEST_GROUP(test_folder_make, test_folder_remove)

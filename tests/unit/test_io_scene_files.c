@@ -37,9 +37,8 @@ static void expect_lives(const char *path)
     rlf_scene_destroy(&scene);
 }
 
-static void every_scene_loads_and_lives(void **state)
+TEST_CASE(every_scene_loads_and_lives)
 {
-    (void)state;
     DIR *folder = opendir(SCENES);
     assert_non_null(folder);
     int count = 0;
@@ -62,9 +61,8 @@ static void assert_vec3_equal(rlf_vec3 a, rlf_vec3 b)
     assert_true(a.x == b.x && a.y == b.y && a.z == b.z);
 }
 
-static void two_cubes_is_the_default_scene(void **state)
+TEST_CASE(two_cubes_is_the_default_scene)
 {
-    (void)state;
     rlf_scene made;
     rlf_scene read;
     assert_int_equal(rlf_scene_create_two_cubes(&made), RLF_OK);
@@ -88,13 +86,4 @@ static void two_cubes_is_the_default_scene(void **state)
     }
     rlf_scene_destroy(&made);
     rlf_scene_destroy(&read);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_scene_loads_and_lives),
-        cmocka_unit_test(two_cubes_is_the_default_scene),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -45,9 +45,8 @@ static rlf_frame follow(live_follow *f, uint64_t sequence, int64_t time_ns, int6
     return frame;
 }
 
-static void clocks_and_counters_that_start_anew_go_on(void **state)
+TEST_CASE(clocks_and_counters_that_start_anew_go_on)
 {
-    (void)state;
     live_follow f = {.has_last = false};
     uint64_t lost;
     assert_int_equal(follow(&f, 10, 5 * SECOND, 100 * SECOND, 0).time_ns, 5 * SECOND);
@@ -87,9 +86,8 @@ static rlf_source *open_simulated(const char *name, const char *faults)
     return source;
 }
 
-static void the_simulated_camera_drops_doubles_and_jumps(void **state)
+TEST_CASE(the_simulated_camera_drops_doubles_and_jumps)
 {
-    (void)state;
     rlf_source *source = open_simulated("a", "drop=7&doubled=5&jitter=10&time_back=1");
     const int64_t start_ns = rlf_clock_ns();
     int64_t time_ns = INT64_MIN;
@@ -105,9 +103,8 @@ static void the_simulated_camera_drops_doubles_and_jumps(void **state)
     rlf_source_destroy(&source);
 }
 
-static void the_simulated_camera_is_pulled_out_and_put_back(void **state)
+TEST_CASE(the_simulated_camera_is_pulled_out_and_put_back)
 {
-    (void)state;
     const int64_t start_ns = rlf_clock_ns();
     rlf_source *source = open_simulated("b", "unplug_after=1&replug_after=1.2");
     assert_true(await_line(source, "was pulled out", start_ns) > SECOND);
@@ -120,9 +117,8 @@ static void the_simulated_camera_is_pulled_out_and_put_back(void **state)
     rlf_source_destroy(&source);
 }
 
-static void the_simulated_camera_stalls(void **state)
+TEST_CASE(the_simulated_camera_stalls)
 {
-    (void)state;
     const int64_t start_ns = rlf_clock_ns();
     rlf_source *source = open_simulated("c", "stall=1.5@1");
     assert_true(await_line(source, "no frame for 1 s", start_ns) > 18 * SECOND / 10);
@@ -131,9 +127,8 @@ static void the_simulated_camera_stalls(void **state)
     rlf_source_destroy(&source);
 }
 
-static void wrong_faults_are_told(void **state)
+TEST_CASE(wrong_faults_are_told)
 {
-    (void)state;
     const char *const wrong[] = {
         "simulated:?drop=1",     "simulated:?stall=2",   "simulated:?stall=2@",
         "simulated:?hang=soon",  "simulated:?jitter=-1", "simulated:?of=simulated:",
@@ -146,15 +141,4 @@ static void wrong_faults_are_told(void **state)
     assert_non_null(strstr(rlf_error_text(), "not plugged in"));
 }
 
-int main(void)
-{
-#define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, test_folder_remove)
-    const struct CMUnitTest tests[] = {
-        TEST(clocks_and_counters_that_start_anew_go_on),
-        TEST(the_simulated_camera_drops_doubles_and_jumps),
-        TEST(the_simulated_camera_is_pulled_out_and_put_back),
-        TEST(the_simulated_camera_stalls),
-        TEST(wrong_faults_are_told),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(set_up, test_folder_remove)

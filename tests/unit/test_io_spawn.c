@@ -36,9 +36,8 @@ static void expect_place(const rlf_scene *scene, int32_t index, double x, double
     }
 }
 
-static void a_grid_is_centred_and_begins_below(void **state)
+TEST_CASE(a_grid_is_centred_and_begins_below)
 {
-    (void)state;
     rlf_scene scene =
         spawn("\"body\":{\"name\":\"cube\",\"position\":[1,2,3],\"mass\":7},\"pattern\":\"grid\","
               "\"count\":[3,2,2],\"spacing\":[0.1,0.2,0.4]");
@@ -57,9 +56,8 @@ static void a_grid_is_centred_and_begins_below(void **state)
 }
 
 /* Upwards is against the scene's gravity, whatever the camera's mount. */
-static void a_stack_rises_and_a_ring_is_level(void **state)
+TEST_CASE(a_stack_rises_and_a_ring_is_level)
 {
-    (void)state;
     const struct {
         const char *gravity;
         rlf_vec3 up;
@@ -99,9 +97,8 @@ static const char *const RANDOM_PLACES =
     "\"body\":{\"shape\":\"sphere\",\"radius\":0.05,\"position\":[0,-1,2]},\"pattern\":\"random\","
     "\"count\":100,\"box\":[1.2,0.4,0.8]";
 
-static void random_places_fill_the_box_and_keep_apart(void **state)
+TEST_CASE(random_places_fill_the_box_and_keep_apart)
 {
-    (void)state;
     rlf_scene scene = spawn(RANDOM_PLACES);
     const rlf_vec3 middle = {0, -1, 2};
     int32_t octants[8] = {0};
@@ -139,9 +136,8 @@ static int32_t count_moved(const rlf_scene *a, const rlf_scene *b)
     return count;
 }
 
-static void a_seed_always_gives_the_same_and_a_key_changes_its_own_only(void **state)
+TEST_CASE(a_seed_always_gives_the_same_and_a_key_changes_its_own_only)
 {
-    (void)state;
     char text[512];
     rlf_scene first = spawn(RANDOM_PLACES), again = spawn(RANDOM_PLACES);
     assert_int_equal(count_moved(&first, &again), 0);
@@ -168,9 +164,8 @@ static void a_seed_always_gives_the_same_and_a_key_changes_its_own_only(void **s
 }
 
 /* The same bits on every machine: a scene's run is compared by its hash. */
-static void random_numbers_are_those_of_splitmix64(void **state)
+TEST_CASE(random_numbers_are_those_of_splitmix64)
 {
-    (void)state;
     io_random r = {1234567};
     const uint64_t published[5] = {6457827717110365317u, 3203168211198807973u, 9817491932198370423u,
                                    4593380528125082431u, 16408922859458223821u};
@@ -180,9 +175,8 @@ static void random_numbers_are_those_of_splitmix64(void **state)
 }
 
 /* A random rotation takes a vector anywhere with the same chance: mean 0, mean square 1/3. */
-static void turns_have_no_preferred_direction(void **state)
+TEST_CASE(turns_have_no_preferred_direction)
 {
-    (void)state;
     enum { COUNT = 20000 };
     rlf_vec3 sum = {0, 0, 0}, square = {0, 0, 0};
     for (int32_t i = 0; i < COUNT; i++) {
@@ -199,9 +193,8 @@ static void turns_have_no_preferred_direction(void **state)
     }
 }
 
-static void bodies_go_one_after_another_in_colours_in_turn(void **state)
+TEST_CASE(bodies_go_one_after_another_in_colours_in_turn)
 {
-    (void)state;
     rlf_scene scene = spawn("\"body\":{\"release_time\":0.5,\"angular_velocity\":[0,9,0],"
                             "\"color\":[0,0,0]},\"pattern\":\"stack\",\"count\":5,\"spacing\":1,"
                             "\"interval\":0.25,\"angular_velocity_spread\":[0,2,0],"
@@ -215,9 +208,8 @@ static void bodies_go_one_after_another_in_colours_in_turn(void **state)
     rlf_scene_destroy(&scene);
 }
 
-static void bodies_of_a_pattern_share_one_hull(void **state)
+TEST_CASE(bodies_of_a_pattern_share_one_hull)
 {
-    (void)state;
     rlf_scene scene;
     const char *vertices = "\"vertices\":[[0,0,0],[1,0,0],[0,1,0],[0,0,1]]";
     char text[1024];
@@ -286,9 +278,8 @@ static const struct {
     {STACK("\"count\":2,\"colors\":[[1,1,1],[0,0,2]]"), "spawn[0].colors [1]", "0 to 1"},
 };
 
-static void broken_patterns_are_refused_with_one_clear_line(void **state)
+TEST_CASE(broken_patterns_are_refused_with_one_clear_line)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof(broken_entries) / sizeof(broken_entries[0]); i++) {
         rlf_scene scene;
         test_expect_error(parse(broken_entries[i].text, &scene), RLF_ERROR_INVALID, "scene.json",
@@ -298,9 +289,8 @@ static void broken_patterns_are_refused_with_one_clear_line(void **state)
     }
 }
 
-static void as_many_as_a_scene_may_have(void **state)
+TEST_CASE(as_many_as_a_scene_may_have)
 {
-    (void)state;
     rlf_scene scene = spawn("\"body\":{\"name\":\"n\"},\"pattern\":\"random\",\"count\":65536,"
                             "\"box\":[9,9,9]");
     assert_int_equal(scene.body_count, 65536);
@@ -308,19 +298,4 @@ static void as_many_as_a_scene_may_have(void **state)
     rlf_scene_destroy(&scene);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_grid_is_centred_and_begins_below),
-        cmocka_unit_test(a_stack_rises_and_a_ring_is_level),
-        cmocka_unit_test(random_places_fill_the_box_and_keep_apart),
-        cmocka_unit_test(a_seed_always_gives_the_same_and_a_key_changes_its_own_only),
-        cmocka_unit_test(random_numbers_are_those_of_splitmix64),
-        cmocka_unit_test(turns_have_no_preferred_direction),
-        cmocka_unit_test(bodies_go_one_after_another_in_colours_in_turn),
-        cmocka_unit_test(bodies_of_a_pattern_share_one_hull),
-        cmocka_unit_test(broken_patterns_are_refused_with_one_clear_line),
-        cmocka_unit_test(as_many_as_a_scene_may_have),
-    };
-    return cmocka_run_group_tests(tests, test_folder_make, test_folder_remove);
-}
+TEST_GROUP(test_folder_make, test_folder_remove)

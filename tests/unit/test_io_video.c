@@ -19,9 +19,8 @@ static rlf_image_rgba8 flat(uint8_t *pixels, int32_t w, int32_t h, uint32_t rgb)
 }
 
 /* Colour bars as BT.601 prints them for 8 bits. */
-static void known_colors_convert_exactly(void **state)
+TEST_CASE(known_colors_convert_exactly)
 {
-    (void)state;
     static const struct {
         uint32_t rgb;
         uint8_t yuv[3];
@@ -47,9 +46,8 @@ static void known_colors_convert_exactly(void **state)
     }
 }
 
-static void rates_are_exact_fractions(void **state)
+TEST_CASE(rates_are_exact_fractions)
 {
-    (void)state;
     const struct {
         double rate;
         int numerator, denominator;
@@ -81,9 +79,8 @@ static void write_frames(const char *path, int32_t w, int32_t h, int count)
     free(pixels);
 }
 
-static void y4m_is_a_header_and_frames(void **state)
+TEST_CASE(y4m_is_a_header_and_frames)
 {
-    (void)state;
     write_frames(test_path("v.y4m"), 5, 3, 2);
     size_t size;
     char *file = test_read(test_path("v.y4m"), &size);
@@ -111,9 +108,8 @@ static size_t find(const char *file, size_t size, const char *name)
     return 0;
 }
 
-static void mp4_is_whole_and_starts_fast(void **state)
+TEST_CASE(mp4_is_whole_and_starts_fast)
 {
-    (void)state;
     const struct {
         int width, height, count;
     } films[3] = {{64, 48, 10}, {63, 47, 1}, {64, 48, 0}};
@@ -144,13 +140,4 @@ static void mp4_is_whole_and_starts_fast(void **state)
 }
 #endif
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_colors_convert_exactly),
-        cmocka_unit_test(rates_are_exact_fractions),
-        cmocka_unit_test(y4m_is_a_header_and_frames),
-        cmocka_unit_test(mp4_is_whole_and_starts_fast),
-    };
-    return cmocka_run_group_tests(tests, test_folder_make, test_folder_remove);
-}
+TEST_GROUP(test_folder_make, test_folder_remove)

@@ -1,33 +1,19 @@
 /* Models of real things: rays and distances of shapes, poses from points and on surfaces. */
+#include "draws.h"
+#include "hulls.h"
 #include "known/mesh.h"
 #include "known_boxes.h"
 #include "relief/known.h"
-#include "relief/model.h"
-#include "relief/pipeline.h"
-#include "relief/synthetic.h"
 #include "render_scene.h"
+#include "small_world.h"
 #include "test.h"
 
 #include <math.h>
 #include <string.h>
 
-static double uniform(uint64_t *state, double low, double high)
-{
-    *state = *state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-    return low + (high - low) * (double)(*state >> 33) / 2147483648.0;
-}
-
-static rlf_vec3 random_vec3(uint64_t *state, double size)
-{
-    double x = uniform(state, -size, size), y = uniform(state, -size, size);
-    return rlf_vec3_make(x, y, uniform(state, -size, size));
-}
-
 static const rlf_vec3 octahedron[6] = {{0.2, 0, 0},  {-0.2, 0, 0}, {0, 0.3, 0},
                                        {0, -0.3, 0}, {0, 0, 0.25}, {0, 0, -0.25}};
-static const int32_t faces[24] = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4,
-                                  2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
-static const rlf_hull hull = {octahedron, 6, faces, 8};
+static const rlf_hull hull = {octahedron, 6, OCTAHEDRON_FACES, 8};
 
 static const rlf_shape shapes[5] = {{.type = RLF_SHAPE_BOX, .size = {0.3, 0.4, 0.5}},
                                     {.type = RLF_SHAPE_SPHERE, .radius = 0.3},
@@ -37,15 +23,14 @@ static const rlf_shape shapes[5] = {{.type = RLF_SHAPE_BOX, .size = {0.3, 0.4, 0
 
 /* Where a ray enters and leaves the distance is 0, between it is negative; a ray that is said to
  * miss stays outside. */
-static void rays_agree_with_distances(void **state)
+TEST_CASE(rays_agree_with_distances)
 {
-    (void)state;
     uint64_t random = 7;
     for (int s = 0; s < 5; s++) {
         int hits = 0;
         for (int i = 0; i < 2000; i++) {
-            rlf_vec3 from = random_vec3(&random, 1.0);
-            rlf_vec3 d = rlf_sub(random_vec3(&random, 0.4), from), gradient;
+            rlf_vec3 from = draw_vector(&random, 1.0);
+            rlf_vec3 d = rlf_sub(draw_vector(&random, 0.4), from), gradient;
             double enter, leave;
             if (rlf_shape_cast(&shapes[s], from, d, &enter, &leave)) {
                 hits++;
@@ -67,21 +52,20 @@ static void rays_agree_with_distances(void **state)
 
 static rlf_pose random_pose(uint64_t *random)
 {
-    rlf_pose T = {random_vec3(random, 2.0), {0, 0, 0, 1}};
-    T.q = rlf_quat_from_rotation_vector(random_vec3(random, 1.8));
+    rlf_pose T = {draw_vector(random, 2.0), {0, 0, 0, 1}};
+    T.q = rlf_quat_from_rotation_vector(draw_vector(random, 1.8));
     return T;
 }
 
-static void points_give_the_pose_back(void **state)
+TEST_CASE(points_give_the_pose_back)
 {
-    (void)state;
     uint64_t random = 3;
     for (int i = 0; i < 500; i++) {
         int32_t count = 3 + i % 4;
         rlf_vec3 model[6], world[6];
         rlf_pose T = random_pose(&random), found;
         for (int32_t k = 0; k < count; k++) {
-            model[k] = random_vec3(&random, 0.5);
+            model[k] = draw_vector(&random, 0.5);
             world[k] = rlf_transform(&T, model[k]);
         }
         double rms;
@@ -99,24 +83,23 @@ static void points_give_the_pose_back(void **state)
 }
 
 /* No rotation nearby leaves less: the closed form is the least. */
-static void noisy_points_give_the_least_squares(void **state)
+TEST_CASE(noisy_points_give_the_least_squares)
 {
-    (void)state;
     uint64_t random = 5;
     for (int i = 0; i < 50; i++) {
         rlf_vec3 model[5], world[5];
         rlf_pose T = random_pose(&random), found;
         for (int k = 0; k < 5; k++) {
-            model[k] = random_vec3(&random, 0.5);
-            world[k] = rlf_add(rlf_transform(&T, model[k]), random_vec3(&random, 0.02));
+            model[k] = draw_vector(&random, 0.5);
+            world[k] = rlf_add(rlf_transform(&T, model[k]), draw_vector(&random, 0.02));
         }
         double rms;
         assert_int_equal(rlf_align_points(model, world, 5, &found, &rms), RLF_OK);
         for (int n = 0; n < 20; n++) {
             rlf_pose other = found;
-            rlf_quat turn = rlf_quat_from_rotation_vector(random_vec3(&random, 0.01));
+            rlf_quat turn = rlf_quat_from_rotation_vector(draw_vector(&random, 0.01));
             other.q = rlf_quat_mul(turn, found.q);
-            other.p = rlf_add(found.p, random_vec3(&random, 0.005));
+            other.p = rlf_add(found.p, draw_vector(&random, 0.005));
             double sum = 0.0;
             for (int k = 0; k < 5; k++) {
                 rlf_vec3 d = rlf_sub(rlf_transform(&other, model[k]), world[k]);
@@ -127,9 +110,8 @@ static void noisy_points_give_the_least_squares(void **state)
     }
 }
 
-static void poor_points_are_refused(void **state)
+TEST_CASE(poor_points_are_refused)
 {
-    (void)state;
     const rlf_vec3 line[3] = {{0, 0, 0}, {1, 1, 0}, {2, 2, 0}};
     const rlf_vec3 good[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     const rlf_vec3 wild[3] = {{0, 0, 0}, {NAN, 0, 0}, {0, 1, 0}};
@@ -141,9 +123,8 @@ static void poor_points_are_refused(void **state)
     assert_int_equal(rlf_align_points(good, good, 3, &T, NULL), RLF_OK);
 }
 
-static void points_have_names(void **state)
+TEST_CASE(points_have_names)
 {
-    (void)state;
     rlf_vec3 p;
     assert_true(rlf_known_name_point(&shapes[0], "ltn", &p));
     assert_true(p.x == -0.15 && p.y == -0.2 && p.z == -0.25);
@@ -164,22 +145,21 @@ static void points_have_names(void **state)
 /* ---- triangles ------------------------------------------------------------------------------ */
 
 /* A ray meets the triangles of many boxes where it meets the first and the last of them. */
-static void rays_meet_triangles(void **state)
+TEST_CASE(rays_meet_triangles)
 {
-    (void)state;
     uint64_t random = 11;
     rlf_vec3 at[BOXES_MAX], size[BOXES_MAX];
     for (int i = 0; i < BOXES_MAX; i++) {
-        at[i] = random_vec3(&random, 1.0);
-        size[i] = rlf_vec3_make(uniform(&random, 0.05, 0.4), uniform(&random, 0.05, 0.4), 0.2);
+        at[i] = draw_vector(&random, 1.0);
+        size[i] = rlf_vec3_make(draw(&random, 0.05, 0.4), draw(&random, 0.05, 0.4), 0.2);
     }
     rlf_model *model = model_of_boxes(at, size, BOXES_MAX);
     known_mesh *mesh = NULL;
     assert_int_equal(known_mesh_create(model, &mesh), RLF_OK);
     int32_t hits = 0;
     for (int k = 0; k < 4000; k++) {
-        rlf_vec3 origin = rlf_add(random_vec3(&random, 1.0), rlf_vec3_make(0, 0, -3));
-        rlf_vec3 direction = rlf_add(random_vec3(&random, 0.3), rlf_vec3_make(0, 0, 1));
+        rlf_vec3 origin = rlf_add(draw_vector(&random, 1.0), rlf_vec3_make(0, 0, -3));
+        rlf_vec3 direction = rlf_add(draw_vector(&random, 0.3), rlf_vec3_make(0, 0, 1));
         double first = 1e9, last = -1.0, enter, leave;
         for (int i = 0; i < BOXES_MAX; i++) {
             const rlf_shape box = {.type = RLF_SHAPE_BOX, .size = size[i]};
@@ -223,17 +203,14 @@ static void pick(rlf_known_def *def, const rlf_rig *rig, const char *name, doubl
     point->pixel[1] += dv;
 }
 
-static void picks_on_the_room_give_the_crates_pose(void **state)
+TEST_CASE(picks_on_the_room_give_the_crates_pose)
 {
-    (void)state;
     rlf_synthetic_def synthetic = rlf_synthetic_def_default();
     synthetic.scene = RLF_SYNTHETIC_EMPTY;
-    rlf_source *source = NULL;
-    assert_int_equal(rlf_synthetic_create(&synthetic, &source), RLF_OK);
+    rlf_source *source = synthetic_of(&synthetic);
     rlf_pipeline_def pipeline_def = rlf_pipeline_def_default(RLF_PROFILE_LIVE, source, NULL);
     pipeline_def.enable_render = false;
-    rlf_pipeline *pipeline = NULL;
-    assert_int_equal(rlf_pipeline_create(&pipeline_def, &pipeline), RLF_OK);
+    rlf_pipeline *pipeline = pipeline_of(&pipeline_def);
     const rlf_rig *rig = &rlf_source_get_info(source)->rig;
     rlf_known_def def = crate();
     const rlf_pose truth = def.T_world_model;
@@ -276,9 +253,8 @@ static void picks_on_the_room_give_the_crates_pose(void **state)
 }
 
 /* Picks where nothing is sensed: one line says how many have depth. */
-static void picks_without_depth_are_refused(void **state)
+TEST_CASE(picks_without_depth_are_refused)
 {
-    (void)state;
     render_scene *s = scene_make(0.0);
     rlf_known_def def = crate();
     pick(&def, &s->rig, "ltn", 0, 0);
@@ -297,57 +273,35 @@ static void picks_without_depth_are_refused(void **state)
 
 /* ---- bodies --------------------------------------------------------------------------------- */
 
-static void bodies_rest_on_a_model(void **state)
+TEST_CASE(bodies_rest_on_a_model)
 {
-    (void)state;
     rlf_world_def world_def = rlf_world_def_default();
-    rlf_world *world = NULL;
-    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
+    rlf_world *world = world_of(&world_def);
     rlf_body_def def = rlf_body_def_default();
     rlf_body_id id;
     def.is_real = true;
     def.shape.size = rlf_vec3_make(1, 0.2, 1);
     def.position = rlf_vec3_make(0, 1, 2);
     def.restitution = 0;
-    assert_int_equal(rlf_world_add_body(world, &def, &id), RLF_OK);
+    id = add_body(world, &def);
     def = rlf_body_def_default();
     def.position = rlf_vec3_make(0, 0.6, 2);
     def.restitution = 0.1;
-    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    add_body(world, &def);
     const rlf_snapshot *snapshot = rlf_world_get_snapshot(world);
     assert_int_equal(snapshot->body_count, 1);
     assert_int_equal(snapshot->known_count, 1);
-    for (int i = 0; i < 120; i++) {
-        rlf_world_advance(world, NULL, 1.0 / 60);
-    }
+    advance_steps(world, NULL, 120, 1.0 / 60);
     assert_true(fabs(snapshot->bodies[0].T_world_body.p.y - 0.85) < 0.003);
     assert_true(snapshot->known[0].T_world_body.p.y == 1.0);
     rlf_world_remove_body(world, id); /* taken away: the body falls */
     assert_int_equal(snapshot->known_count, 0);
-    for (int i = 0; i < 30; i++) {
-        rlf_world_advance(world, NULL, 1.0 / 60);
-    }
+    advance_steps(world, NULL, 30, 1.0 / 60);
     assert_true(snapshot->bodies[0].T_world_body.p.y > 1.5);
     rlf_world_destroy(&world);
     world_def.method = RLF_PHYSICS_THESIS;
-    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
+    world = world_of(&world_def);
     def.is_real = true;
     assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_ERROR_INVALID);
     rlf_world_destroy(&world);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rays_agree_with_distances),
-        cmocka_unit_test(points_give_the_pose_back),
-        cmocka_unit_test(noisy_points_give_the_least_squares),
-        cmocka_unit_test(poor_points_are_refused),
-        cmocka_unit_test(points_have_names),
-        cmocka_unit_test(rays_meet_triangles),
-        cmocka_unit_test(picks_on_the_room_give_the_crates_pose),
-        cmocka_unit_test(picks_without_depth_are_refused),
-        cmocka_unit_test(bodies_rest_on_a_model),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -29,9 +29,8 @@ static known_layer open_layer(const rlf_body_state *model)
 
 /* A box half a metre wide, 1.75 to 2.25 m away, on the axis: 120 * 0.25 / 1.75 = 17 pixels to each
  * side. */
-static void model_takes_the_things_place(void **state)
+TEST_CASE(model_takes_the_things_place)
 {
-    (void)state;
     rlf_body_state model = {.shape = scene_box(0.5), .T_world_body = {{0, 0, 2}, {0, 0, 0, 1}}};
     known_layer layer = open_layer(&model);
     static float z[160 * 120], copy[160 * 120];
@@ -67,9 +66,8 @@ static void model_takes_the_things_place(void **state)
 }
 
 /* Beside a model the sensor mixes it with what is behind; a slope behind it is no mixture. */
-static void mixed_pixels_are_the_models(void **state)
+TEST_CASE(mixed_pixels_are_the_models)
 {
-    (void)state;
     rlf_body_state model = {.shape = scene_box(0.5), .T_world_body = {{0, 0, 2}, {0, 0, 0, 1}}};
     known_layer layer = open_layer(&model);
     static float z[160 * 120], copy[160 * 120];
@@ -97,9 +95,8 @@ static void mixed_pixels_are_the_models(void **state)
 
 /* In the inner corner of two bars the way out leads along one of them: what is behind is found
  * askew. */
-static void inner_corners_are_mixed_too(void **state)
+TEST_CASE(inner_corners_are_mixed_too)
 {
-    (void)state;
     static const rlf_vec3 at[2] = {{0, -0.2, 0}, {0.25, 0.1, 0}};
     static const rlf_vec3 size[2] = {{0.6, 0.1, 0.05}, {0.1, 0.6, 0.05}};
     rlf_model *bars = model_of_boxes(at, size, 2);
@@ -125,9 +122,8 @@ static void inner_corners_are_mixed_too(void **state)
 }
 
 /* Depth changes along a slant by more than noise from one pixel of the sensor to the next. */
-static void slants_are_not_before_the_model(void **state)
+TEST_CASE(slants_are_not_before_the_model)
 {
-    (void)state;
     rlf_body_state model = {.shape = {.type = RLF_SHAPE_BOX, .size = {1, 0.2, 2}},
                             .T_world_body = {{0, 0.5, 3}, {0, 0, 0, 1}}};
     known_layer layer = open_layer(&model);
@@ -142,9 +138,8 @@ static void slants_are_not_before_the_model(void **state)
 }
 
 /* What a silhouette leaves of a body behind it, wherever within a pixel it runs. */
-static void models_cut_pixels_in_parts(void **state)
+TEST_CASE(models_cut_pixels_in_parts)
 {
-    (void)state;
     render_scene *s = scene_make(3.0);
     scene_add_body(s, scene_box(0.3), rlf_vec3_make(0.15, 0, 2.4));
     rlf_compositor_def def = scene_def(s);
@@ -173,9 +168,8 @@ static void models_cut_pixels_in_parts(void **state)
 }
 
 /* A body behind a known box that the sensor does not see at all: hidden where the box is. */
-static void unseen_model_hides_a_body(void **state)
+TEST_CASE(unseen_model_hides_a_body)
 {
-    (void)state;
     render_scene *s = scene_make(3.0);
     scene_add_body(s, scene_box(0.3), rlf_vec3_make(0.15, 0, 2.4));
     rlf_body_state model = {.shape = scene_box(0.3), .T_world_body = {{0, 0, 1.5}, {0, 0, 0, 1}}};
@@ -203,9 +197,8 @@ static void unseen_model_hides_a_body(void **state)
 
 /* A frame of four bars hides with its bars; a body shows through its middle, though it collides as
  * a whole box. */
-static void triangles_hide_and_holes_show(void **state)
+TEST_CASE(triangles_hide_and_holes_show)
 {
-    (void)state;
     static const rlf_vec3 at[4] = {{-0.125, 0, 0}, {0.125, 0, 0}, {0, -0.125, 0}, {0, 0.125, 0}};
     static const rlf_vec3 size[4] = {
         {0.05, 0.3, 0.05}, {0.05, 0.3, 0.05}, {0.3, 0.05, 0.05}, {0.3, 0.05, 0.05}};
@@ -237,18 +230,4 @@ static void triangles_hide_and_holes_show(void **state)
     rlf_compositor_destroy(&compositor);
     rlf_model_destroy(&frame);
     scene_free(s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(model_takes_the_things_place),
-        cmocka_unit_test(mixed_pixels_are_the_models),
-        cmocka_unit_test(inner_corners_are_mixed_too),
-        cmocka_unit_test(slants_are_not_before_the_model),
-        cmocka_unit_test(models_cut_pixels_in_parts),
-        cmocka_unit_test(unseen_model_hides_a_body),
-        cmocka_unit_test(triangles_hide_and_holes_show),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

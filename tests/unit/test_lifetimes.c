@@ -1,14 +1,12 @@
 /* Whatever is made and destroyed a hundred times leaves nothing behind: every block that the
  * library asks for comes back. With sanitizers the leak checker looks at the rest. */
 #include "relief/hands.h"
-#include "relief/pipeline.h"
+#include "created.h"
+#include "pinhole.h"
+#include "seen_view.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdatomic.h>
 #include <stdlib.h>
-
-#include <cmocka.h>
 
 enum { TURNS = 100, WIDTH = 40, HEIGHT = 30 };
 
@@ -41,17 +39,15 @@ static int stop(void **state)
     return 0;
 }
 
-static void test_worlds(void **state)
+TEST_CASE(test_worlds)
 {
-    (void)state;
     for (int i = 0; i < TURNS; i++) {
         rlf_world_def def = rlf_world_def_default();
         def.body_capacity = 4;
         def.contact_capacity = 64;
-        rlf_world *world = NULL;
-        assert_int_equal(rlf_world_create(&def, &world), RLF_OK);
+        rlf_world *world = world_of(&def);
         const rlf_body_def body = rlf_body_def_default();
-        assert_int_equal(rlf_world_add_body(world, &body, NULL), RLF_OK);
+        add_body(world, &body);
         rlf_world_advance(world, NULL, 0.01);
         assert_true(atomic_load(&blocks) > 0);
         rlf_world_destroy(&world);
@@ -62,23 +58,16 @@ static void test_worlds(void **state)
 static rlf_rig small_rig(void)
 {
     rlf_rig rig = rlf_rig_default();
-    rig.depth = (rlf_camera){.width = WIDTH,
-                             .height = HEIGHT,
-                             .fx = 30.0,
-                             .fy = 30.0,
-                             .cx = 0.5 * (WIDTH - 1),
-                             .cy = 0.5 * (HEIGHT - 1)};
+    rig.depth = pinhole(WIDTH, HEIGHT, 30.0);
     return rig;
 }
 
-static void test_surfaces(void **state)
+TEST_CASE(test_surfaces)
 {
-    (void)state;
     const rlf_rig rig = small_rig();
     for (int i = 0; i < TURNS; i++) {
         const rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
-        rlf_reconstruct *reconstruct = NULL;
-        assert_int_equal(rlf_reconstruct_create(&def, &reconstruct), RLF_OK);
+        rlf_reconstruct *reconstruct = stage_of(&def);
         rlf_reconstruct_destroy(&reconstruct);
     }
     assert_int_equal(atomic_load(&blocks), 0);
@@ -101,9 +90,8 @@ static void push_floor(rlf_pipeline *pipeline)
     }
 }
 
-static void test_pipelines(void **state)
+TEST_CASE(test_pipelines)
 {
-    (void)state;
     const rlf_rig rig = small_rig();
     for (int i = 0; i < TURNS; i++) {
         rlf_pipeline_def def = rlf_pipeline_def_for_rig(RLF_PROFILE_LIVE, &rig, NULL);
@@ -111,8 +99,7 @@ static void test_pipelines(void **state)
         def.enable_hands = true;
         def.world.body_capacity = 4;
         def.world.contact_capacity = 64;
-        rlf_pipeline *pipeline = NULL;
-        assert_int_equal(rlf_pipeline_create(&def, &pipeline), RLF_OK);
+        rlf_pipeline *pipeline = pipeline_of(&def);
         if (i % 20 == 0) {
             push_floor(pipeline);
         }
@@ -121,9 +108,8 @@ static void test_pipelines(void **state)
     assert_int_equal(atomic_load(&blocks), 0);
 }
 
-static void test_failures(void **state)
+TEST_CASE(test_failures)
 {
-    (void)state;
     rlf_rig rig = small_rig();
     rig.depth_min_m = 5.0;
     rig.depth_max_m = 1.0;
@@ -137,13 +123,4 @@ static void test_failures(void **state)
     assert_int_equal(atomic_load(&blocks), 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_worlds, start, stop),
-        cmocka_unit_test_setup_teardown(test_surfaces, start, stop),
-        cmocka_unit_test_setup_teardown(test_pipelines, start, stop),
-        cmocka_unit_test_setup_teardown(test_failures, start, stop),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(start, stop)

@@ -2,17 +2,17 @@
  * what leaves is carved; wrong poses are refused or taken back; memory is bounded. */
 
 #include "map_room.h"
+#include "created.h"
 #include "test.h"
 
 static map_room room;
+static rlf_map *map; /* gone after the test */
 
-static rlf_map *fused(int32_t count)
+static void fuse(int32_t count)
 {
     rlf_map_def def = map_room_def(&room);
-    rlf_map *map = NULL;
-    assert_int_equal(rlf_map_create(&def, &map), RLF_OK);
+    map = map_of(&def);
     map_room_fuse(&room, map, count);
-    return map;
 }
 
 static int set_up(void **state)
@@ -22,8 +22,16 @@ static int set_up(void **state)
     return 0;
 }
 
+static int tear_down(void **state)
+{
+    (void)state;
+    rlf_map_destroy(&map);
+    assert_null(map);
+    return 0;
+}
+
 /* Points about the front of the ball and before the wall. */
-static void check_distances(const rlf_map *map, double most_mean_m)
+static void check_distances(double most_mean_m)
 {
     double sum = 0.0, angle = 0.0;
     int32_t count = 0;
@@ -51,32 +59,26 @@ static void check_distances(const rlf_map *map, double most_mean_m)
     assert_true(angle / count > 0.99);
 }
 
-static void distances_and_gradients_are_those_of_the_room(void **state)
+TEST_CASE(distances_and_gradients_are_those_of_the_room)
 {
-    (void)state;
-    rlf_map *map = fused(12);
-    check_distances(map, 0.001);
+    fuse(12);
+    check_distances(0.001);
     assert_int_equal(rlf_map_sample(map, rlf_vec3_make(0, 0, 3.0)).state, RLF_MAP_UNKNOWN);
     assert_int_equal(rlf_map_sample(map, rlf_vec3_make(1e300, 0, 0)).state, RLF_MAP_UNKNOWN);
     assert_int_equal(rlf_map_sample(map, rlf_vec3_make(NAN, 0, 0)).state, RLF_MAP_UNKNOWN);
-    rlf_map_destroy(&map);
-    assert_null(map);
 }
 
-static void a_bent_lens_gives_the_same_room(void **state)
+TEST_CASE(a_bent_lens_gives_the_same_room)
 {
-    (void)state;
     map_room_bend(&room);
-    rlf_map *map = fused(12);
-    check_distances(map, 0.001);
-    rlf_map_destroy(&map);
+    fuse(12);
+    check_distances(0.001);
 }
 
 /* From a pose that was not fused. */
-static void a_prediction_is_what_is_there(void **state)
+TEST_CASE(a_prediction_is_what_is_there)
 {
-    (void)state;
-    rlf_map *map = fused(12);
+    fuse(12);
     const rlf_pose T = {.p = rlf_vec3_make(0.03, 0.01, 0.06),
                         .q = rlf_quat_from_rotation_vector(rlf_vec3_make(0.02, -0.03, 0.05))};
     rlf_prediction p;
@@ -110,11 +112,10 @@ static void a_prediction_is_what_is_there(void **state)
     const uint8_t *rgba = rlf_map_predict_color(map);
     const int32_t middle = (ROOM_HEIGHT / 2) * ROOM_WIDTH + ROOM_WIDTH / 2;
     assert_true(rgba[4 * middle] > 150 && rgba[4 * middle + 2] < 100);
-    rlf_map_destroy(&map);
 }
 
 /* Share of the pixels of a smaller camera whose depth is predicted to 4 mm, of 100. */
-static int32_t percent_predicted(rlf_map *map, const rlf_pose *T)
+static int32_t percent_predicted(const rlf_pose *T)
 {
     rlf_prediction p;
     const rlf_camera small = rlf_camera_decimate(&room.rig.depth, 4);
@@ -134,21 +135,19 @@ static int32_t percent_predicted(rlf_map *map, const rlf_pose *T)
 }
 
 /* The wall lies right on voxels of each of these sizes; a pixel is 11 mm and more. */
-static void one_frame_is_enough_with_voxels_finer_than_pixels(void **state)
+TEST_CASE(one_frame_is_enough_with_voxels_finer_than_pixels)
 {
-    (void)state;
     const double voxels[] = {0.004, 0.01, 0.05};
     const double turns[] = {0.0, 0.6};
     room.has_ball = false;
     for (int32_t i = 0; i < 6; i++) {
         rlf_map_def def = map_room_def(&room);
         def.voxel_m = voxels[i % 3];
-        rlf_map *map = NULL;
-        assert_int_equal(rlf_map_create(&def, &map), RLF_OK);
+        map = map_of(&def);
         const rlf_pose T = {.q = rlf_quat_from_rotation_vector(rlf_vec3_make(0, turns[i / 3], 0))};
         const rlf_map_view view = map_room_look(&room, &T);
         assert_int_equal(rlf_map_integrate(map, &view, &T, NULL), RLF_OK);
-        const int32_t percent = percent_predicted(map, &T);
+        const int32_t percent = percent_predicted(&T);
         if (percent < 90) {
             fail_msg("voxel %g, turned by %g: %d %% predicted", def.voxel_m, turns[i / 3],
                      (int)percent);
@@ -157,10 +156,9 @@ static void one_frame_is_enough_with_voxels_finer_than_pixels(void **state)
     }
 }
 
-static void the_mesh_is_the_surface_and_has_no_cracks(void **state)
+TEST_CASE(the_mesh_is_the_surface_and_has_no_cracks)
 {
-    (void)state;
-    rlf_map *map = fused(12);
+    fuse(12);
     rlf_map_mesh mesh;
     assert_int_equal(rlf_map_mesh_create(map, 1, &mesh), RLF_OK);
     assert_true(mesh.triangle_count > 1000);
@@ -193,10 +191,9 @@ static void the_mesh_is_the_surface_and_has_no_cracks(void **state)
     rlf_free(seen);
     rlf_map_mesh_destroy(&mesh);
     assert_null(mesh.position);
-    rlf_map_destroy(&map);
 }
 
-static size_t ball_vertices(const rlf_map *map)
+static size_t ball_vertices(void)
 {
     rlf_map_mesh mesh;
     size_t count = 0;
@@ -208,27 +205,23 @@ static size_t ball_vertices(const rlf_map *map)
     return count;
 }
 
-static void what_leaves_is_carved(void **state)
+TEST_CASE(what_leaves_is_carved)
 {
-    (void)state;
-    rlf_map *map = fused(40);
-    const size_t before = ball_vertices(map);
+    fuse(40);
+    const size_t before = ball_vertices();
     assert_true(before > 500);
     room.has_ball = false;
     map_room_fuse(&room, map, 80);
-    assert_int_equal(ball_vertices(map), 0);
+    assert_int_equal(ball_vertices(), 0);
     const rlf_vec3 front = {room.ball.x, room.ball.y, room.ball.z - ROOM_BALL_RADIUS};
     assert_int_equal(rlf_map_sample(map, front).state, RLF_MAP_UNKNOWN); /* its blocks are back */
-    check_distances(map, 0.001); /* of the wall, also where the ball had hidden it */
-    rlf_map_destroy(&map);
+    check_distances(0.001); /* of the wall, also where the ball had hidden it */
 }
 
-static void what_is_masked_is_not_fused(void **state)
+TEST_CASE(what_is_masked_is_not_fused)
 {
-    (void)state;
     rlf_map_def def = map_room_def(&room);
-    rlf_map *map = NULL;
-    assert_int_equal(rlf_map_create(&def, &map), RLF_OK);
+    map = map_of(&def);
     static uint8_t is_static[ROOM_PIXELS];
     for (int32_t i = 0; i < 8; i++) {
         const rlf_pose T = map_room_pose(i);
@@ -239,15 +232,13 @@ static void what_is_masked_is_not_fused(void **state)
         view.is_static = is_static;
         assert_int_equal(rlf_map_integrate(map, &view, &T, NULL), RLF_OK);
     }
-    assert_int_equal(ball_vertices(map), 0);
+    assert_int_equal(ball_vertices(), 0);
     assert_true(rlf_map_get_status(map).block_count > 100);
-    rlf_map_destroy(&map);
 }
 
-static void a_bad_pose_is_refused_and_a_wrong_one_is_taken_back(void **state)
+TEST_CASE(a_bad_pose_is_refused_and_a_wrong_one_is_taken_back)
 {
-    (void)state;
-    rlf_map *map = fused(10);
+    fuse(10);
     rlf_map_fence(map);
     map_bytes before = map_bytes_of(map);
     rlf_pose T = map_room_pose(0);
@@ -277,17 +268,14 @@ static void a_bad_pose_is_refused_and_a_wrong_one_is_taken_back(void **state)
     assert_int_equal(rlf_map_get_status(map).frames, 10);
     rlf_free(after.data);
     rlf_free(before.data);
-    rlf_map_destroy(&map);
 }
 
-static void memory_is_bounded_and_the_farthest_leave(void **state)
+TEST_CASE(memory_is_bounded_and_the_farthest_leave)
 {
-    (void)state;
     rlf_map_def def = map_room_def(&room);
     def.memory_mb = 8;
     def.voxel_m = 0.006;
-    rlf_map *map = NULL;
-    assert_int_equal(rlf_map_create(&def, &map), RLF_OK);
+    map = map_of(&def);
     rlf_map_change change;
     int32_t evicted = 0;
     for (int32_t i = 0; i < 24; i++) {
@@ -305,18 +293,15 @@ static void memory_is_bounded_and_the_farthest_leave(void **state)
                      RLF_MAP_UNKNOWN);
     assert_int_not_equal(rlf_map_sample(map, rlf_vec3_make(3.4, 0, ROOM_WALL_Z)).state,
                          RLF_MAP_UNKNOWN);
-    rlf_map_destroy(&map);
 }
 
 /* What it leaves behind makes room for what the camera sees then. */
-static void a_frame_that_alone_fills_the_memory_does_not_stay(void **state)
+TEST_CASE(a_frame_that_alone_fills_the_memory_does_not_stay)
 {
-    (void)state;
     rlf_map_def def = map_room_def(&room);
     def.memory_mb = 8;
     def.voxel_m = 0.003;
-    rlf_map *map = NULL;
-    assert_int_equal(rlf_map_create(&def, &map), RLF_OK);
+    map = map_of(&def);
     rlf_map_change change;
     for (int32_t i = 0; i < 3; i++) {
         rlf_pose T = map_room_pose(0);
@@ -327,18 +312,15 @@ static void a_frame_that_alone_fills_the_memory_does_not_stay(void **state)
         assert_true(change.blocks_new > 3000);
         assert_true((change.blocks_evicted > 0) == (i > 0));
     }
-    rlf_map_destroy(&map);
 }
 
-static void the_number_of_threads_changes_nothing(void **state)
+TEST_CASE(the_number_of_threads_changes_nothing)
 {
-    (void)state;
     map_bytes bytes[2];
     for (int32_t i = 0; i < 2; i++) {
         rlf_map_def def = map_room_def(&room);
-        assert_int_equal(rlf_pool_create(1 + 2 * i, &def.pool), RLF_OK);
-        rlf_map *map = NULL;
-        assert_int_equal(rlf_map_create(&def, &map), RLF_OK);
+        def.pool = pool_of(1 + 2 * i);
+        map = map_of(&def);
         map_room_fuse(&room, map, 6);
         bytes[i] = map_bytes_of(map);
         rlf_map_destroy(&map);
@@ -349,10 +331,9 @@ static void the_number_of_threads_changes_nothing(void **state)
     rlf_free(bytes[1].data);
 }
 
-static void a_picture_without_depth_does_no_harm(void **state)
+TEST_CASE(a_picture_without_depth_does_no_harm)
 {
-    (void)state;
-    rlf_map *map = fused(6);
+    fuse(6);
     map_bytes before = map_bytes_of(map);
     for (int32_t i = 0; i < ROOM_PIXELS; i++) {
         const float bad[4] = {0.0f, NAN, -1.0f, INFINITY};
@@ -365,24 +346,6 @@ static void a_picture_without_depth_does_no_harm(void **state)
     assert_true(map_bytes_equal(&before, &after));
     rlf_free(before.data);
     rlf_free(after.data);
-    rlf_map_destroy(&map);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(distances_and_gradients_are_those_of_the_room, set_up),
-        cmocka_unit_test_setup(a_bent_lens_gives_the_same_room, set_up),
-        cmocka_unit_test_setup(a_prediction_is_what_is_there, set_up),
-        cmocka_unit_test_setup(one_frame_is_enough_with_voxels_finer_than_pixels, set_up),
-        cmocka_unit_test_setup(the_mesh_is_the_surface_and_has_no_cracks, set_up),
-        cmocka_unit_test_setup(what_leaves_is_carved, set_up),
-        cmocka_unit_test_setup(what_is_masked_is_not_fused, set_up),
-        cmocka_unit_test_setup(a_bad_pose_is_refused_and_a_wrong_one_is_taken_back, set_up),
-        cmocka_unit_test_setup(memory_is_bounded_and_the_farthest_leave, set_up),
-        cmocka_unit_test_setup(a_frame_that_alone_fills_the_memory_does_not_stay, set_up),
-        cmocka_unit_test_setup(the_number_of_threads_changes_nothing, set_up),
-        cmocka_unit_test_setup(a_picture_without_depth_does_no_harm, set_up),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(set_up, tear_down)

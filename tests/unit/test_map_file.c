@@ -1,6 +1,7 @@
 /* Maps as bytes: what is saved comes back; what is cut short, changed or invented is refused. */
 
 #include "map_room.h"
+#include "created.h"
 #include "test.h"
 
 static map_room room;
@@ -9,8 +10,7 @@ static rlf_map *made(int32_t views)
 {
     rlf_map_def def = map_room_def(&room);
     def.memory_mb = 16;
-    rlf_map *map = NULL;
-    assert_int_equal(rlf_map_create(&def, &map), RLF_OK);
+    rlf_map *map = map_of(&def);
     map_room_fuse(&room, map, views);
     return map;
 }
@@ -22,9 +22,8 @@ static int set_up(void **state)
     return 0;
 }
 
-static void what_is_saved_comes_back(void **state)
+TEST_CASE(what_is_saved_comes_back)
 {
-    (void)state;
     rlf_map *map = made(4), *other = made(0);
     map_bytes file = map_bytes_of(map);
     assert_true(file.size > 10000);
@@ -47,9 +46,8 @@ static void what_is_saved_comes_back(void **state)
     rlf_map_destroy(&other);
 }
 
-static void a_full_disk_is_told(void **state)
+TEST_CASE(a_full_disk_is_told)
 {
-    (void)state;
     rlf_map *map = made(2);
     uint8_t small[1000];
     map_bytes file = {.data = small, .capacity = sizeof(small)};
@@ -66,9 +64,8 @@ static void check_refused(rlf_map *map, map_bytes file, rlf_result expected)
     assert_true(rlf_error_text()[0] != '\0');
 }
 
-static void a_cut_or_hostile_file_is_refused(void **state)
+TEST_CASE(a_cut_or_hostile_file_is_refused)
 {
-    (void)state;
     rlf_map *map = made(2);
     map_bytes file = map_bytes_of(map);
     const size_t whole = file.size;
@@ -100,12 +97,4 @@ static void a_cut_or_hostile_file_is_refused(void **state)
     rlf_map_destroy(&map);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(what_is_saved_comes_back, set_up),
-        cmocka_unit_test_setup(a_full_disk_is_told, set_up),
-        cmocka_unit_test_setup(a_cut_or_hostile_file_is_refused, set_up),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(set_up, NULL)

@@ -9,9 +9,8 @@
 
 #include <math.h>
 
-static void elementary_functions_agree_with_libm(void **state)
+TEST_CASE(elementary_functions_agree_with_libm)
 {
-    (void)state;
     for (int i = -20000; i <= 20000; i++) {
         double x = i * 0.00137;
         assert_true(fabs(rlf_sin(x) - sin(x)) < 3e-15);
@@ -29,9 +28,8 @@ static void elementary_functions_agree_with_libm(void **state)
     assert_true(rlf_exp(-1000.0) == 0.0);
 }
 
-static void poses_compose_and_invert(void **state)
+TEST_CASE(poses_compose_and_invert)
 {
-    (void)state;
     rlf_pose a = {{1, -2, 3},
                   rlf_quat_from_axis_angle(rlf_normalize(rlf_vec3_make(1, 2, -1)), 1.1)};
     rlf_pose b = {{0.5, 0.1, -4}, rlf_quat_from_rotation_vector(rlf_vec3_make(-0.3, 2.5, 0.4))};
@@ -48,9 +46,8 @@ static void poses_compose_and_invert(void **state)
     assert_true(fabs(fabs(dot) - 1.0) < 1e-14);
 }
 
-static void inverse_of_a_matrix(void **state)
+TEST_CASE(inverse_of_a_matrix)
 {
-    (void)state;
     rlf_mat3 a = {{{2, 1, 0.5}, {-1, 3, 0.25}, {0.1, 0.2, 4}}};
     rlf_mat3 inverse;
     assert_true(rlf_mat3_invert(&a, &inverse));
@@ -64,9 +61,8 @@ static void inverse_of_a_matrix(void **state)
     assert_false(rlf_mat3_invert(&singular, &inverse));
 }
 
-static void inverse_of_a_covariance(void **state)
+TEST_CASE(inverse_of_a_covariance)
 {
-    (void)state;
     enum { N = 7 };
     double a[N][N], inverse[N][N];
     for (int r = 0; r < N; r++) {
@@ -88,9 +84,8 @@ static void inverse_of_a_covariance(void **state)
 }
 
 /* Planes all round tell a motion; those of a tunnel leave the way along it open. */
-static void rigid_motion_of_planes(void **state)
+TEST_CASE(rigid_motion_of_planes)
 {
-    (void)state;
     static const double moved[6] = {0.01, -0.02, 0.03, 0.004, -0.005, 0.006};
     for (int open = 0; open < 2; open++) {
         math_rigid_sums sums = {.weight = 0.0};
@@ -118,9 +113,8 @@ static void rigid_motion_of_planes(void **state)
     }
 }
 
-static void model_matrix_scales_then_rotates_then_translates(void **state)
+TEST_CASE(model_matrix_scales_then_rotates_then_translates)
 {
-    (void)state;
     rlf_pose T = {{1, 2, 3}, rlf_quat_from_axis_angle(rlf_vec3_make(0, 0, 1), RLF_PI / 2)};
     rlf_mat4 m = rlf_mat4_model(&T, rlf_vec3_make(2, 3, 4));
     /* (1,0,0) -> scaled (2,0,0) -> rotated (0,2,0) -> moved (1,4,3) */
@@ -131,9 +125,8 @@ static void model_matrix_scales_then_rotates_then_translates(void **state)
 
 /* A v = value v, and the vectors are square to each other: of a plate seen aslant, of a needle, of
  * one whose values are the same, and of nothing. */
-static void eigenvectors_are_only_scaled(void **state)
+TEST_CASE(eigenvectors_are_only_scaled)
 {
-    (void)state;
     static const double all[4][6] = {{2e-2, 1e-3, -4e-3, 1e-2, 3e-3, 1e-3}, /* xx xy xz yy yz zz */
                                      {4.0, 6.0, 2.0, 9.0, 3.0, 1.0},
                                      {1.0, 1e-25, 0.0, 1.0, 0.0, 1.0},
@@ -154,18 +147,4 @@ static void eigenvectors_are_only_scaled(void **state)
             assert_true(fabs(dot - (r == c)) < 1e-14);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(elementary_functions_agree_with_libm),
-        cmocka_unit_test(poses_compose_and_invert),
-        cmocka_unit_test(inverse_of_a_matrix),
-        cmocka_unit_test(eigenvectors_are_only_scaled),
-        cmocka_unit_test(inverse_of_a_covariance),
-        cmocka_unit_test(rigid_motion_of_planes),
-        cmocka_unit_test(model_matrix_scales_then_rotates_then_translates),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,12 +3,11 @@
 
 #include "count_assert.h"
 #include "relief/relief.h"
-#include "relief/synthetic.h"
+#include "created.h"
 #include "test.h"
 
-static void cameras_of_nothing_are_refused(void **state)
+TEST_CASE(cameras_of_nothing_are_refused)
 {
-    (void)state;
     const rlf_camera camera = {.width = 64, .height = 48, .fx = 50, .fy = 50, .cx = 32, .cy = 24};
     const rlf_camera nowhere = {.width = 0};
     int count = 0;
@@ -28,15 +27,12 @@ static rlf_pipeline *make_pipeline(rlf_source **source)
     room.color_height = 36;
     assert_int_equal(rlf_synthetic_create(&room, source), RLF_OK);
     rlf_pipeline_def def = rlf_pipeline_def_default(RLF_PROFILE_LIVE, *source, NULL);
-    rlf_pipeline *pipeline = NULL;
-    assert_int_equal(rlf_pipeline_create(&def, &pipeline), RLF_OK);
-    return pipeline;
+    return pipeline_of(&def);
 }
 
 /* A view that is none is refused by both calls, and a missing line is an empty one. */
-static void pipeline_refuses_views_that_are_none(void **state)
+TEST_CASE(pipeline_refuses_views_that_are_none)
 {
-    (void)state;
     rlf_source *source = NULL;
     rlf_pipeline *pipeline = make_pipeline(&source);
     const int none[] = {-7, 99, RLF_VIEW_COUNT};
@@ -56,13 +52,4 @@ static void pipeline_refuses_views_that_are_none(void **state)
     rlf_set_assert(NULL, NULL);
     rlf_pipeline_destroy(&pipeline);
     rlf_source_destroy(&source);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cameras_of_nothing_are_refused),
-        cmocka_unit_test(pipeline_refuses_views_that_are_none),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

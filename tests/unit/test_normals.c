@@ -67,7 +67,7 @@ static rlf_vec3 random_plane(analytic_random *r)
     }
 }
 
-static void exact_methods_are_exact_on_planes(void **state)
+TEST_CASE(exact_methods_are_exact_on_planes)
 {
     grid *g = *state;
     static const rlf_normal_method methods[] = {RLF_NORMALS_SIX_FACES, RLF_NORMALS_FOUR_FACES,
@@ -85,9 +85,8 @@ static void exact_methods_are_exact_on_planes(void **state)
     }
 }
 
-static void inverse_depth_is_exact_behind_a_distorting_lens(void **state)
+TEST_CASE(inverse_depth_is_exact_behind_a_distorting_lens)
 {
-    (void)state;
     static grid own;
     grid *g = &own;
     g->camera = analytic_rig(WIDTH, HEIGHT).depth;
@@ -116,7 +115,7 @@ static void inverse_depth_is_exact_behind_a_distorting_lens(void **state)
 }
 
 /* Eq. 4.3 written out again: with perspective it is the slope along the row and the column. */
-static void thesis_normal_is_eq_4_3(void **state)
+TEST_CASE(thesis_normal_is_eq_4_3)
 {
     grid *g = *state;
     analytic_random r = {3};
@@ -140,7 +139,7 @@ static void thesis_normal_is_eq_4_3(void **state)
 }
 
 /* Slopes along one axis: eq. 4.3 is exact (errata 1). */
-static void thesis_normal_is_exact_for_slopes_along_one_axis(void **state)
+TEST_CASE(thesis_normal_is_exact_for_slopes_along_one_axis)
 {
     grid *g = *state;
     const rlf_vec3 planes[2] = {{0.6, 0.0, -0.8}, {0.0, -0.6, -0.8}};
@@ -153,7 +152,7 @@ static void thesis_normal_is_exact_for_slopes_along_one_axis(void **state)
     }
 }
 
-static void orientation_is_to_the_camera_or_to_the_image(void **state)
+TEST_CASE(orientation_is_to_the_camera_or_to_the_image)
 {
     grid *g = *state;
     const rlf_vec3 floor_plane = {0.0, -0.9949874371, 0.1}; /* seen from above, leaning away */
@@ -175,7 +174,7 @@ static void orientation_is_to_the_camera_or_to_the_image(void **state)
     assert_true(g->z[(HEIGHT - 3) * WIDTH + WIDTH / 2] > 0.05f);
 }
 
-static void missing_neighbour_takes_the_thesis_normal_away(void **state)
+TEST_CASE(missing_neighbour_takes_the_thesis_normal_away)
 {
     grid *g = *state;
     const rlf_vec3 n = {0.0, 0.0, -1.0};
@@ -204,7 +203,7 @@ static void missing_neighbour_takes_the_thesis_normal_away(void **state)
 
 /* Corners of the grid (fig. 4.8): two mesh triangles at the top right and bottom left, one at the
  * others. The diagonal neighbour is moved off the plane to see whether it counts. */
-static void corners_use_the_diagonal_where_the_mesh_has_one(void **state)
+TEST_CASE(corners_use_the_diagonal_where_the_mesh_has_one)
 {
     grid *g = *state;
     const rlf_vec3 n = {0.0, 0.0, -1.0};
@@ -219,7 +218,7 @@ static void corners_use_the_diagonal_where_the_mesh_has_one(void **state)
     }
 }
 
-static void normals_do_not_cross_a_depth_edge(void **state)
+TEST_CASE(normals_do_not_cross_a_depth_edge)
 {
     grid *g = *state;
     const rlf_vec3 near = {0.6, 0.0, -0.8}, far = {0.0, 0.0, -1.0};
@@ -236,47 +235,7 @@ static void normals_do_not_cross_a_depth_edge(void **state)
     }
 }
 
-static void noisy_plane_is_within_two_degrees(void **state)
-{
-    (void)state;
-    enum { W = 512, H = 64 };
-    rlf_rig rig = analytic_rig(W, H);
-    float *ray_x, *ray_y;
-    analytic_rays(&rig.depth, &ray_x, &ray_y);
-    float *depth = rlf_alloc_array(W * H, sizeof(float));
-    float *out = rlf_alloc_array(3 * W * H, sizeof(float));
-    rlf_vec3 n = rlf_normalize(rlf_vec3_make(0.3, 0.5, -0.8));
-    analytic_random r = {5};
-    for (int i = 0; i < W * H; i++) {
-        double z = plane_depth(n, -1.6, ray_x[i], ray_y[i]);
-        z += rlf_depth_noise_sigma(&rig.noise, z) * random_normal(&r);
-        depth[i] = random_uniform(&r) < 0.01 ? 0.0f : (float)z;
-    }
-    rlf_compute_normals(RLF_NORMALS_INVERSE_DEPTH, true, W, H, ray_x, ray_y, depth, &rig.noise, out,
-                        out + W * H, out + 2 * W * H);
-    double sum = 0.0;
-    int count = 0, wrong = 0;
-    for (int i = 0; i < W * H; i++) {
-        rlf_vec3 m = {out[i], out[W * H + i], out[2 * W * H + i]};
-        if (!(depth[i] > 0.0f)) {
-            assert_true(rlf_length(m) == 0.0);
-            continue;
-        }
-        assert_float_equal(rlf_length(m), 1.0, 1e-5); /* none is lost to the holes */
-        double angle = angle_deg(m, n);
-        sum += angle;
-        wrong += angle > 30.0;
-        count++;
-    }
-    assert_true(sum / count < 2.0);
-    assert_int_equal(wrong, 0);
-    rlf_free(depth);
-    rlf_free(out);
-    rlf_free(ray_x);
-    rlf_free(ray_y);
-}
-
-static void lone_pixels_face_the_camera(void **state)
+TEST_CASE(lone_pixels_face_the_camera)
 {
     grid *g = *state;
     const rlf_depth_noise noise = {0.0015, -0.0005, 0.0003};
@@ -290,19 +249,4 @@ static void lone_pixels_face_the_camera(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exact_methods_are_exact_on_planes),
-        cmocka_unit_test(inverse_depth_is_exact_behind_a_distorting_lens),
-        cmocka_unit_test(thesis_normal_is_eq_4_3),
-        cmocka_unit_test(thesis_normal_is_exact_for_slopes_along_one_axis),
-        cmocka_unit_test(orientation_is_to_the_camera_or_to_the_image),
-        cmocka_unit_test(missing_neighbour_takes_the_thesis_normal_away),
-        cmocka_unit_test(corners_use_the_diagonal_where_the_mesh_has_one),
-        cmocka_unit_test(normals_do_not_cross_a_depth_edge),
-        cmocka_unit_test(noisy_plane_is_within_two_degrees),
-        cmocka_unit_test(lone_pixels_face_the_camera),
-    };
-    return cmocka_run_group_tests(tests, make_grid, free_grid);
-}
+TEST_GROUP(make_grid, free_grid)

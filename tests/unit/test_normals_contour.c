@@ -14,9 +14,8 @@ static depth_step make_step(void)
 }
 
 /* Half of what is about every second pixel lies a metre behind: the contour is at its border. */
-static void contours_point_to_what_is_behind(void **state)
+TEST_CASE(contours_point_to_what_is_behind)
 {
-    (void)state;
     const depth_step step = make_step();
     for (int32_t t = 0; t < 8; t++) {
         double angle = 0.25 * 3.14159265358979 * t, x = cos(angle), y = sin(angle);
@@ -42,9 +41,8 @@ static void contours_point_to_what_is_behind(void **state)
 
 /* A face, or a slope of 0.4 percent of the depth a pixel, and what lies 0.5, 3 or 4.5 percent
  * farther behind it: a contour where noise and a slope do not explain that, on both alike. */
-static void slopes_have_no_contours(void **state)
+TEST_CASE(slopes_have_no_contours)
 {
-    (void)state;
     const depth_step step = make_step();
     const float slopes[2] = {0.0f, 0.004f}, behind[4] = {0.0f, 0.005f, 0.03f, 0.045f};
     contour_batch b = {0};
@@ -72,9 +70,8 @@ static void set_way(contour_batch *b, contour_way *way, int32_t i, int32_t k, do
 /* On a ball or a cylinder the sine of the angle to the ray falls linearly from 1 at the contour;
  * windows find it 0.8 pixels farther in. A flat face has no contour that it turns to. Of a filled
  * pixel the first normal is that of the next one. */
-static void normals_near_a_contour_are_moved_out(void **state)
+TEST_CASE(normals_near_a_contour_are_moved_out)
 {
-    (void)state;
     const double radius = 20.0, inside = 0.8;
     contour_batch b = {0};
     contour_way way = {0};
@@ -99,9 +96,8 @@ static void normals_near_a_contour_are_moved_out(void **state)
 
 /* Two faces or folds, in turn, beside a contour: what is not flat leans out by a tangent of 0.45
  * within two pixels of it, if it is rounded. */
-static void what_is_uneven_leans_out(void **state)
+TEST_CASE(what_is_uneven_leans_out)
 {
-    (void)state;
     const double lean = 0.45;
     contour_batch b = {0};
     contour_way way = {0};
@@ -126,9 +122,8 @@ static void what_is_uneven_leans_out(void **state)
 
 /* The outermost normal is that of another face than those farther in, turned outwards or inwards.
  */
-static void the_last_face_goes_on(void **state)
+TEST_CASE(the_last_face_goes_on)
 {
-    (void)state;
     contour_batch b = {0};
     contour_way way = {0};
     for (int32_t i = 0; i < RLF_BATCH; i++) {
@@ -147,9 +142,8 @@ static void the_last_face_goes_on(void **state)
 
 /* A surface of ten columns, one of them filled, before a wall: the ways go from its right side
  * inwards and end with it. */
-static void ways_end_with_their_surface(void **state)
+TEST_CASE(ways_end_with_their_surface)
 {
-    (void)state;
     enum { ACROSS = 24, DOWN = 6, FIRST = 8, FILLED = 15, LAST = 17, STEPS = CONTOUR_WAY };
     const depth_step step = make_step();
     float depth[ACROSS * DOWN], ray[ACROSS * DOWN], nx[ACROSS * DOWN], nz[ACROSS * DOWN];
@@ -190,9 +184,8 @@ static void ways_end_with_their_surface(void **state)
 
 /* A thing of 12 columns before a wall: those within four of the wall, where something was in
  * front before. */
-static void what_is_seen_beside_a_contour_is_marked(void **state)
+TEST_CASE(what_is_seen_beside_a_contour_is_marked)
 {
-    (void)state;
     enum { ACROSS = 32, DOWN = 9, FIRST = 10, COLUMNS = 12, REACH = CONTOUR_REACH };
     const depth_step step = make_step();
     float depth[ACROSS * DOWN];
@@ -210,18 +203,4 @@ static void what_is_seen_beside_a_contour_is_marked(void **state)
         bool beside = (x > FIRST && x < FIRST + 4) || (x >= FIRST + 8 && x < FIRST + COLUMNS);
         assert_int_equal(mark[x], beside && x < FIRST + 8);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(contours_point_to_what_is_behind),
-        cmocka_unit_test(slopes_have_no_contours),
-        cmocka_unit_test(normals_near_a_contour_are_moved_out),
-        cmocka_unit_test(what_is_uneven_leans_out),
-        cmocka_unit_test(the_last_face_goes_on),
-        cmocka_unit_test(ways_end_with_their_surface),
-        cmocka_unit_test(what_is_seen_beside_a_contour_is_marked),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -85,14 +85,14 @@ static score watch(seen_view *v, rlf_reconstruct *stage, int32_t first)
 static rlf_reconstruct *settle(seen_view *v)
 {
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &v->rig);
-    rlf_reconstruct *stage = seen_view_stage(&def);
+    rlf_reconstruct *stage = stage_of(&def);
     for (int32_t k = 0; k < SETTLED; k++) {
         (void)take_frame(v, stage, k);
     }
     return stage;
 }
 
-static void noise_does_not_turn_normals(void **state)
+TEST_CASE(noise_does_not_turn_normals)
 {
     const int rounds = heavy(6, 2);
     seen_view *v = *state;
@@ -106,20 +106,19 @@ static void noise_does_not_turn_normals(void **state)
         all.turned += s.turned;
         rlf_reconstruct_destroy(&stage);
     }
-    print_message("%d of %d wrong, %d turned\n", all.wrong, all.count, all.turned);
-    assert_true(all.count > 10000 / 6 * rounds);
-    assert_true(30 * all.wrong < all.count);
-    assert_true(1000 * all.turned < all.count);
+    assert_less(10000 / 6 * rounds, all.count);
+    assert_less(30 * all.wrong, all.count);
+    assert_less(1000 * all.turned, all.count);
 }
 
 /* A board before a wall, whose outermost column showed the wall while the background was learnt,
  * and is dropped in two frames of three from then on. */
-static void the_background_has_the_side_that_is_settled(void **state)
+TEST_CASE(the_background_has_the_side_that_is_settled)
 {
     enum { EDGE = 96, LEARNT = 5, LAST = 2 * SETTLED };
     seen_view *v = *state;
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &v->rig);
-    rlf_reconstruct *stage = seen_view_stage(&def);
+    rlf_reconstruct *stage = stage_of(&def);
     const rlf_surface *s = NULL;
     for (int32_t t = 0; t < LAST; t++) {
         for (int i = 0; i < COUNT; i++) {
@@ -136,8 +135,7 @@ static void the_background_has_the_side_that_is_settled(void **state)
             wrong += off > 0.1f || off < -0.1f;
         }
     }
-    print_message("%d on the wrong side\n", wrong);
-    assert_true(wrong < HEIGHT / 10);
+    assert_less(wrong, HEIGHT / 10);
     rlf_reconstruct_destroy(&stage);
 }
 
@@ -159,13 +157,13 @@ static const rlf_surface *take_ragged(seen_view *v, rlf_reconstruct *stage, int3
 }
 
 /* A dropped pixel has one side while nothing moves there, not one that raggedness chooses anew. */
-static void a_dropped_pixel_stays_on_its_side(void **state)
+TEST_CASE(a_dropped_pixel_stays_on_its_side)
 {
     enum { FRAMES = 32, EDGE = 96, ABOUT = 3, LAST = SETTLED + FRAMES };
     static float before[COUNT];
     seen_view *v = *state;
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &v->rig);
-    rlf_reconstruct *stage = seen_view_stage(&def);
+    rlf_reconstruct *stage = stage_of(&def);
     int changed = 0;
     for (int32_t t = 0; t < LAST; t++) {
         const rlf_surface *s = take_ragged(v, stage, t);
@@ -177,14 +175,13 @@ static void a_dropped_pixel_stays_on_its_side(void **state)
         }
     }
     int count = (HEIGHT - 16) * 2 * ABOUT * FRAMES;
-    print_message("%d changes of side in %d pixels\n", changed, count);
-    assert_true(50 * changed < count);
+    assert_less(50 * changed, count);
     rlf_reconstruct_destroy(&stage);
 }
 
 /* A corner is three pixels off its place, nearer than a jump of depth: soon it is as right as one
  * that was there from the start. */
-static void what_has_changed_is_believed(void **state)
+TEST_CASE(what_has_changed_is_believed)
 {
     seen_view *v = *state;
     set_corner(v, 0.83);
@@ -199,9 +196,7 @@ static void what_has_changed_is_believed(void **state)
     }
     score moved = watch(v, stage, SETTLED + SECOND);
     rlf_reconstruct_destroy(&stage);
-    print_message("%d of %d wrong, %d where it was there before\n", moved.wrong, moved.count,
-                  there.wrong);
-    assert_true(50 * moved.wrong < 50 * there.wrong + moved.count);
+    assert_less(50 * moved.wrong, 50 * there.wrong + moved.count);
 }
 
 /* A shelf board beside the camera, three and a half centimetres thick, from above: its side is
@@ -232,7 +227,7 @@ static const rlf_surface *take_slanted(seen_view *v, rlf_reconstruct *stage, int
     return seen_view_process(v, stage, number);
 }
 
-static void a_narrow_side_is_found(void **state)
+TEST_CASE(a_narrow_side_is_found)
 {
     const int rounds = heavy(6, 2);
     seen_view *v = *state;
@@ -240,7 +235,7 @@ static void a_narrow_side_is_found(void **state)
     for (int k = 0; k < rounds; k++) {
         set_board(v, -0.4 - 0.01 * k, 0.2 + 0.003 * k);
         rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &v->rig);
-        rlf_reconstruct *stage = seen_view_stage(&def);
+        rlf_reconstruct *stage = stage_of(&def);
         const rlf_surface *s = NULL;
         for (int32_t t = 0; t <= 2 * SETTLED; t++) {
             s = take_slanted(v, stage, t);
@@ -251,12 +246,11 @@ static void a_narrow_side_is_found(void **state)
         }
         rlf_reconstruct_destroy(&stage);
     }
-    print_message("%d of %d wrong\n", wrong, count);
-    assert_true(count > 300 / 6 * rounds);
+    assert_less(300 / 6 * rounds, count);
     assert_true(!heavy_is_whole() || 7 * wrong < count);
 }
 
-static void what_stands_in_front_has_its_own(void **state)
+TEST_CASE(what_stands_in_front_has_its_own)
 {
     seen_view *v = *state;
     set_corner(v, 0.8);
@@ -274,15 +268,4 @@ static void what_stands_in_front_has_its_own(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(noise_does_not_turn_normals),
-        cmocka_unit_test(the_background_has_the_side_that_is_settled),
-        cmocka_unit_test(a_dropped_pixel_stays_on_its_side),
-        cmocka_unit_test(what_has_changed_is_believed),
-        cmocka_unit_test(a_narrow_side_is_found),
-        cmocka_unit_test(what_stands_in_front_has_its_own),
-    };
-    return cmocka_run_group_tests(tests, set_up, seen_view_destroy);
-}
+TEST_GROUP(set_up, seen_view_destroy)

@@ -84,9 +84,8 @@ static const char *words_of(int status)
     }
 }
 
-static void every_pointer_may_be_null_safely(void **state)
+TEST_CASE(every_pointer_may_be_null_safely)
 {
-    (void)state;
     int wrong = 0, made = 0;
     for (size_t i = 0; i < sizeof(null_calls) / sizeof(null_calls[0]); i++) {
         const null_call *call = &null_calls[i];
@@ -115,10 +114,4 @@ static int set_up(void **state)
     return 0;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_pointer_may_be_null_safely),
-    };
-    return cmocka_run_group_tests(tests, set_up, NULL);
-}
+TEST_GROUP(set_up, NULL)

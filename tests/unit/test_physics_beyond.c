@@ -1,6 +1,5 @@
 /* What the picture's border cuts goes on beyond it: a leg down to the floor, a cupboard's front. */
 #include "grid_room.h"
-#include "small_world.h"
 #include "test.h"
 
 #define LEG_Z 1.5
@@ -38,49 +37,42 @@ static double slide(rlf_shape_type type, double z)
     return way.p.x;
 }
 
-static void leg_goes_on_below_the_picture(void **state)
+static void expect_leg(double z)
 {
-    (void)state;
-    paint(GRID_H);
-    assert_true(slide(RLF_SHAPE_SPHERE, LEG_Z + 0.02) < -LEG_SIDE - RADIUS + 0.01);
-    assert_true(slide(RLF_SHAPE_BOX, LEG_Z + 0.02) < -LEG_SIDE - RADIUS + 0.01);
-    grid_room_destroy(NULL);
+    assert_true(slide(RLF_SHAPE_SPHERE, z) < -LEG_SIDE - RADIUS + 0.01);
+    assert_true(slide(RLF_SHAPE_BOX, z) < -LEG_SIDE - RADIUS + 0.01);
 }
 
-static void air_before_it_is_free(void **state)
+static void expect_air(double z)
 {
-    (void)state;
+    assert_true(slide(RLF_SHAPE_SPHERE, z) > 0.3);
+    assert_true(slide(RLF_SHAPE_BOX, z) > 0.3);
+}
+
+TEST_CASE(leg_goes_on_below_the_picture)
+{
     paint(GRID_H);
-    assert_true(slide(RLF_SHAPE_SPHERE, LEG_Z - 0.1) > 0.3);
-    assert_true(slide(RLF_SHAPE_BOX, LEG_Z - 0.1) > 0.3);
-    grid_room_destroy(NULL);
+    expect_leg(LEG_Z + 0.02);
+    expect_air(LEG_Z - 0.1);
 }
 
 /* Below what ends in the picture bodies pass. */
-static void what_hangs_does_not(void **state)
+TEST_CASE(what_hangs_does_not)
 {
-    (void)state;
     paint(GRID_H - 8);
-    assert_true(slide(RLF_SHAPE_SPHERE, LEG_Z + 0.02) > 0.3);
-    assert_true(slide(RLF_SHAPE_BOX, LEG_Z + 0.02) > 0.3);
-    grid_room_destroy(NULL);
+    expect_air(LEG_Z + 0.02);
 }
 
 /* What is down decides, and not which of the picture's borders is the lower one. */
-static void a_camera_may_hang_upside_down(void **state)
+TEST_CASE(a_camera_may_hang_upside_down)
 {
-    (void)state;
     paint(GRID_H);
     grid_room_turn_over();
-    assert_true(slide(RLF_SHAPE_SPHERE, LEG_Z + 0.02) < -LEG_SIDE - RADIUS + 0.01);
-    assert_true(slide(RLF_SHAPE_BOX, LEG_Z + 0.02) < -LEG_SIDE - RADIUS + 0.01);
-    assert_true(slide(RLF_SHAPE_BOX, LEG_Z - 0.1) > 0.3);
-    grid_room_destroy(NULL);
+    expect_leg(LEG_Z + 0.02);
+    expect_air(LEG_Z - 0.1);
     paint(GRID_H - 8);
     grid_room_turn_over();
-    assert_true(slide(RLF_SHAPE_SPHERE, LEG_Z + 0.02) > 0.3);
-    assert_true(slide(RLF_SHAPE_BOX, LEG_Z + 0.02) > 0.3);
-    grid_room_destroy(NULL);
+    expect_air(LEG_Z + 0.02);
 }
 
 enum { LEFT, RIGHT, TOP, SIDES };
@@ -125,26 +117,32 @@ static double fly_at(rlf_shape_type type, int side, double beside)
     return way.farthest_z;
 }
 
-static void a_front_goes_on_beyond_the_picture(void **state)
+static void expect_front(int side, double beside)
 {
-    (void)state;
+    assert_true(fly_at(RLF_SHAPE_SPHERE, side, beside) < FRONT_Z - RADIUS + 0.01);
+    assert_true(fly_at(RLF_SHAPE_BOX, side, beside) < FRONT_Z - RADIUS + 0.01);
+}
+
+static void expect_no_front(int side, double beside)
+{
+    assert_true(fly_at(RLF_SHAPE_SPHERE, side, beside) > FRONT_Z + 0.5);
+    assert_true(fly_at(RLF_SHAPE_BOX, side, beside) > FRONT_Z + 0.5);
+}
+
+TEST_CASE(a_front_goes_on_beyond_the_picture)
+{
     for (int side = 0; side < SIDES; side++) {
         paint_front(side, 0);
-        assert_true(fly_at(RLF_SHAPE_SPHERE, side, 0.1) < FRONT_Z - RADIUS + 0.01);
-        assert_true(fly_at(RLF_SHAPE_BOX, side, 0.1) < FRONT_Z - RADIUS + 0.01);
-        assert_true(fly_at(RLF_SHAPE_BOX, side, 0.5) > FRONT_Z + 0.5); /* nobody knows */
-        grid_room_destroy(NULL);
+        expect_front(side, 0.1);
+        expect_no_front(side, 0.5); /* nobody knows */
     }
 }
 
-static void what_ends_before_the_border_does_not(void **state)
+TEST_CASE(what_ends_before_the_border_does_not)
 {
-    (void)state;
     for (int side = 0; side < SIDES; side++) {
         paint_front(side, 8);
-        assert_true(fly_at(RLF_SHAPE_SPHERE, side, 0.1) > FRONT_Z + 0.5);
-        assert_true(fly_at(RLF_SHAPE_BOX, side, 0.1) > FRONT_Z + 0.5);
-        grid_room_destroy(NULL);
+        expect_no_front(side, 0.1);
     }
 }
 
@@ -161,41 +159,32 @@ static void paint_ring(int side, int32_t width)
     }
 }
 
-static void a_front_goes_on_in_a_ring(void **state)
+TEST_CASE(a_front_goes_on_in_a_ring)
 {
-    (void)state;
     const int32_t RING = 40;
     for (int side = 0; side < SIDES; side++) {
         paint_ring(side, RING);
         for (int32_t k = -10; k <= RING + 5; k += 5) {
-            double beside = -k * FRONT_Z / GRID_F;
-            assert_true(fly_at(RLF_SHAPE_SPHERE, side, beside) < FRONT_Z - RADIUS + 0.01);
-            assert_true(fly_at(RLF_SHAPE_BOX, side, beside) < FRONT_Z - RADIUS + 0.01);
+            expect_front(side, -k * FRONT_Z / GRID_F);
         }
-        grid_room_destroy(NULL);
     }
 }
 
 /* Nobody knows whether it is a thing that ends there that is seen before what is too far. */
-static void a_front_ends_at_a_hole(void **state)
+TEST_CASE(a_front_ends_at_a_hole)
 {
-    (void)state;
     for (int side = 0; side < SIDES; side++) {
         paint_ring(side, 75);
-        assert_true(fly_at(RLF_SHAPE_SPHERE, side, -0.12) > FRONT_Z + 0.5);
-        assert_true(fly_at(RLF_SHAPE_BOX, side, -0.12) > FRONT_Z + 0.5);
-        grid_room_destroy(NULL);
+        expect_no_front(side, -0.12);
     }
 }
 
-static void without_a_background_all_is_free(void **state)
+TEST_CASE(without_a_background_all_is_free)
 {
-    (void)state;
     grid_room_create();
     grid_room->grid.background.depth = NULL;
-    assert_true(fly_at(RLF_SHAPE_BOX, LEFT, 0.1) > FRONT_Z + 0.5);
-    assert_true(fly_at(RLF_SHAPE_BOX, LEFT, -0.1) > FRONT_Z + 0.5);
-    grid_room_destroy(NULL);
+    expect_no_front(LEFT, 0.1);
+    expect_no_front(LEFT, -0.1);
 }
 
 /* The floor is level about 3 m from the camera, and rises towards it by that slope. */
@@ -209,9 +198,8 @@ static void set_floor(double slope)
 }
 
 /* The floor as it is fitted again goes on 24 mm higher where a body rests out of view. */
-static void a_new_fit_throws_nothing(void **state)
+TEST_CASE(a_new_fit_throws_nothing)
 {
-    (void)state;
     const double SLOPE = 0.011, MOST = 0.0015;
     rlf_world_def world_def = small_world_def();
     world_def.border = RLF_BORDER_EXTEND;
@@ -221,8 +209,8 @@ static void a_new_fit_throws_nothing(void **state)
     rlf_world *world = NULL;
     grid_room_create();
     set_floor(0.0);
-    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
-    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    world = world_of(&world_def);
+    add_body(world, &def);
     double before = 0.0, first = 0.0, y = 0.0;
     for (int k = 0; k < 300; k++) {
         if (k == 30) {
@@ -238,22 +226,6 @@ static void a_new_fit_throws_nothing(void **state)
     }
     assert_true(y < first - 0.02 && y > first - 0.028);
     rlf_world_destroy(&world);
-    grid_room_destroy(NULL);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_new_fit_throws_nothing),
-        cmocka_unit_test(leg_goes_on_below_the_picture),
-        cmocka_unit_test(air_before_it_is_free),
-        cmocka_unit_test(what_hangs_does_not),
-        cmocka_unit_test(a_camera_may_hang_upside_down),
-        cmocka_unit_test(a_front_goes_on_beyond_the_picture),
-        cmocka_unit_test(what_ends_before_the_border_does_not),
-        cmocka_unit_test(a_front_goes_on_in_a_ring),
-        cmocka_unit_test(a_front_ends_at_a_hole),
-        cmocka_unit_test(without_a_background_all_is_free),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(NULL, grid_room_destroy)

@@ -1,21 +1,9 @@
 /* Bodies against bodies, live method. */
-#include "relief/world.h"
+#include "each_world.h"
 #include "test.h"
-
 #include "grid_fixture.h"
 
 #include <math.h>
-
-static rlf_world *make_world(double gravity)
-{
-    rlf_world_def def = rlf_world_def_default();
-    def.gravity = rlf_vec3_make(0, gravity, 0);
-    def.body_capacity = 128;
-    def.contact_capacity = 512;
-    rlf_world *world = NULL;
-    assert_int_equal(rlf_world_create(&def, &world), RLF_OK);
-    return world;
-}
 
 static rlf_body_def body_of(rlf_shape_type type)
 {
@@ -27,125 +15,80 @@ static rlf_body_def body_of(rlf_shape_type type)
     return def;
 }
 
-static const rlf_body_state *body(const rlf_world *world, int i)
-{
-    return &rlf_world_get_snapshot(world)->bodies[i];
-}
-
 /* Equal masses, e = 1: velocities are exchanged. */
-static void head_on_swaps(void **state)
+TEST_CASE(head_on_swaps)
 {
-    (void)state;
     const rlf_shape_type types[] = {RLF_SHAPE_SPHERE, RLF_SHAPE_BOX, RLF_SHAPE_CAPSULE,
                                     RLF_SHAPE_CYLINDER};
     for (size_t i = 0; i < 4; i++) {
-        rlf_world *world = make_world(0);
+        no_gravity();
         rlf_body_def def = body_of(types[i]);
         def.position = rlf_vec3_make(-0.3, 0, 1);
         def.velocity = rlf_vec3_make(1.5, 0, 0);
-        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+        add_body(world, &def);
         def.position = rlf_vec3_make(0.3, 0, 1);
         def.velocity = rlf_vec3_make(-0.5, 0, 0);
-        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
-        for (int k = 0; k < 20; k++) {
-            rlf_world_advance(world, NULL, 1.0 / 30);
-        }
-        print_message("head on, shape %d: %.9f %.9f\n", (int)types[i], body(world, 0)->velocity.x,
-                      body(world, 1)->velocity.x);
-        assert_true(fabs(body(world, 0)->velocity.x + 0.5) < 1e-3);
-        assert_true(fabs(body(world, 1)->velocity.x - 1.5) < 1e-3);
-        double turn = rlf_length(body(world, 0)->angular_velocity);
-        assert_true(turn < 1e-6);
-        rlf_world_destroy(&world);
+        add_body(world, &def);
+        advance_steps(world, NULL, 20, 1.0 / 30);
+        assert_less(fabs(body_at(world, 0)->velocity.x + 0.5), 1e-3);
+        assert_less(fabs(body_at(world, 1)->velocity.x - 1.5), 1e-3);
+        double turn = rlf_length(body_at(world, 0)->angular_velocity);
+        assert_less(turn, 1e-6);
+        rlf_world_reset(world);
     }
-}
-
-/* Newton's cradle without strings: only the last ball leaves. */
-static void chain_of_balls(void **state)
-{
-    (void)state;
-    rlf_world *world = make_world(0);
-    rlf_body_def def = body_of(RLF_SHAPE_SPHERE);
-    for (int i = 0; i < 5; i++) {
-        def.position = rlf_vec3_make(i == 0 ? -0.4 : 0.1 * i - 0.1, 0, 1);
-        def.velocity = rlf_vec3_make(i == 0 ? 2 : 0, 0, 0);
-        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
-    }
-    for (int k = 0; k < 20; k++) {
-        rlf_world_advance(world, NULL, 1.0 / 30);
-    }
-    print_message("chain:");
-    for (int i = 0; i < 5; i++) {
-        double v = body(world, i)->velocity.x;
-        print_message(" %.4f", v);
-        assert_true(fabs(v - (i == 4 ? 2.0 : 0.0)) < 0.01);
-    }
-    print_message("\n");
-    rlf_world_destroy(&world);
 }
 
 /* Any off-centre collision keeps momentum, and energy does not grow. */
 /* Balls in free space swap their speeds, however slow they are. */
-static void slow_balls_swap(void **state)
+TEST_CASE(slow_balls_swap)
 {
-    (void)state;
-    rlf_world *world = make_world(0);
+    no_gravity();
     rlf_body_def def = body_of(RLF_SHAPE_SPHERE);
     def.position = rlf_vec3_make(-0.06, 0, 1);
     def.velocity = rlf_vec3_make(0.1, 0, 0);
-    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    add_body(world, &def);
     def.position.x = 0.06;
     def.velocity.x = 0;
-    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
-    for (int k = 0; k < 30; k++) {
-        rlf_world_advance(world, NULL, 1.0 / 30);
-    }
-    assert_true(fabs(body(world, 0)->velocity.x) < 1e-3);
-    assert_true(fabs(body(world, 1)->velocity.x - 0.1) < 1e-3);
-    rlf_world_destroy(&world);
+    add_body(world, &def);
+    advance_steps(world, NULL, 30, 1.0 / 30);
+    assert_true(fabs(body_at(world, 0)->velocity.x) < 1e-3);
+    assert_true(fabs(body_at(world, 1)->velocity.x - 0.1) < 1e-3);
 }
 
 /* A cube that lies on another rests however bouncy it is: what meets there is no faster than what
  * gravity gives in a few substeps. */
-static void slow_cube_rests(void **state)
+TEST_CASE(slow_cube_rests)
 {
-    (void)state;
-    rlf_world *world = make_world(9.81);
     rlf_body_def def = body_of(RLF_SHAPE_BOX);
     def.shape.size = rlf_vec3_make(2, 0.1, 2);
     def.is_kinematic = true;
     def.position = rlf_vec3_make(0, 1, 0);
-    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    add_body(world, &def);
     def = body_of(RLF_SHAPE_BOX);
     def.position = rlf_vec3_make(0, 0.9, 0);
-    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
-    for (int k = 0; k < 10; k++) {
-        rlf_world_advance(world, NULL, 1.0 / 60);
-    }
+    add_body(world, &def);
+    advance_steps(world, NULL, 10, 1.0 / 60);
     def.position.y = 0.7995;
     def.velocity = rlf_vec3_make(0, 0.03, 0);
-    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    add_body(world, &def);
     double rise = 0;
     for (int k = 0; k < 240; k++) {
         rlf_world_advance(world, NULL, 1.0 / 240);
-        double height = 0.8 - body(world, 2)->T_world_body.p.y;
+        double height = 0.8 - body_at(world, 2)->T_world_body.p.y;
         rise = k >= 24 ? rlf_max(rise, height) : 0.0; /* it started above */
     }
-    print_message("slow blow on a lying cube: rises %.3f mm\n", 1e3 * rise);
-    assert_true(rise < 2e-4);
-    rlf_world_destroy(&world);
+    assert_less(rise, 2e-4);
 }
 
-static void momentum_is_conserved(void **state)
+TEST_CASE(momentum_is_conserved)
 {
-    (void)state;
     static const rlf_vec3 corners[4] = {
         {-0.05, 0.05, -0.05}, {0.05, 0.05, -0.05}, {0, 0.05, 0.1}, {0, -0.15, 0}};
     static const int32_t triangles[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
     rlf_hull hull = {corners, 4, triangles, 4};
     for (int first = 0; first < 5; first++) {
         for (int second = 0; second < 5; second++) {
-            rlf_world *world = make_world(0);
+            no_gravity();
             rlf_body_def a = body_of((rlf_shape_type)first), b = body_of((rlf_shape_type)second);
             a.shape.hull = b.shape.hull = &hull;
             a.mass = 0.2;
@@ -153,16 +96,16 @@ static void momentum_is_conserved(void **state)
             a.velocity = rlf_vec3_make(3, 0, 0);
             a.angular_velocity = rlf_vec3_make(1, 2, 3);
             b.position = rlf_vec3_make(0, 0, 1);
-            assert_int_equal(rlf_world_add_body(world, &a, NULL), RLF_OK);
-            assert_int_equal(rlf_world_add_body(world, &b, NULL), RLF_OK);
+            add_body(world, &a);
+            add_body(world, &b);
             double energy = rlf_world_energy(world);
             int touched = 0;
             for (int k = 0; k < 20; k++) {
                 rlf_world_advance(world, NULL, 1.0 / 30);
                 touched += rlf_world_get_snapshot(world)->contact_count;
             }
-            rlf_vec3 p = rlf_add(rlf_scale(body(world, 0)->velocity, 0.2),
-                                 rlf_scale(body(world, 1)->velocity, 0.1));
+            rlf_vec3 p = rlf_add(rlf_scale(body_at(world, 0)->velocity, 0.2),
+                                 rlf_scale(body_at(world, 1)->velocity, 0.1));
             assert_true(touched > 0);
             assert_true(fabs(p.x - 0.6) < 1e-9 && fabs(p.y) < 1e-9 && fabs(p.z) < 1e-9);
             double gain = rlf_world_energy(world) / energy - 1;
@@ -170,107 +113,60 @@ static void momentum_is_conserved(void **state)
                 print_message("shapes %d %d: energy %+.4f\n", first, second, gain);
             }
             assert_true(gain < 0.01);
-            rlf_world_destroy(&world);
+            rlf_world_reset(world);
         }
     }
-}
-
-/* Ten cubes on a flat grid for 20 s. */
-static void stack_of_ten(void **state)
-{
-    (void)state;
-    grid_fixture *f = grid_fixture_create();
-    grid_plane room[2] = {grid_floor(1.0), grid_wall(4)};
-    grid_fixture_set_room(f, room, 2);
-    rlf_world *world = make_world(9.81);
-    rlf_body_def def = rlf_body_def_default();
-    for (int i = 0; i < 10; i++) {
-        def.position = rlf_vec3_make(0.2, 0.95 - 0.1 * i, 2.5);
-        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
-    }
-    int asleep_at = -1;
-    for (int k = 0; k < 600; k++) {
-        f->grid.time_ns = k;
-        rlf_world_advance(world, &f->grid, 1.0 / 30);
-        if (asleep_at < 0 && body(world, 0)->is_asleep) {
-            asleep_at = k;
-        }
-    }
-    double drift = 0, penetration = 0, speed = 0;
-    for (int i = 0; i < 10; i++) {
-        rlf_vec3 p = body(world, i)->T_world_body.p;
-        double below = i == 0 ? 1.0 : body(world, i - 1)->T_world_body.p.y - 0.05;
-        penetration = rlf_max(penetration, p.y + 0.05 - below);
-        drift = rlf_max(drift, sqrt((p.x - 0.2) * (p.x - 0.2) + (p.z - 2.5) * (p.z - 2.5)));
-        speed = rlf_max(speed, rlf_length(body(world, i)->velocity));
-    }
-    print_message("stack of 10, 20 s: drift %.4f mm, penetration %.4f mm, speed %.1e m/s, asleep "
-                  "at frame %d\n",
-                  1e3 * drift, 1e3 * penetration, speed, asleep_at);
-    assert_true(drift < 0.5e-3 && penetration < 1e-3 && speed < 1e-4);
-    rlf_world_destroy(&world);
-    grid_fixture_destroy(&f);
 }
 
 /* What may overlap is a share of the smaller body: a wide ground swallows nothing. */
-static void a_wide_ground_holds(void **state)
+TEST_CASE(a_wide_ground_holds)
 {
-    (void)state;
-    rlf_world *world = make_world(9.81);
     rlf_body_def def = rlf_body_def_default();
     def.shape.size = rlf_vec3_make(10, 1, 10);
     def.position = rlf_vec3_make(0, 0.5, 0);
     def.is_kinematic = true;
-    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    add_body(world, &def);
     def = rlf_body_def_default();
     def.position = rlf_vec3_make(0, -0.05, 0);
-    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
-    for (int k = 0; k < 60; k++) {
-        rlf_world_advance(world, NULL, 1.0 / 30);
-    }
-    double depth = body(world, 1)->T_world_body.p.y + 0.05;
-    print_message("cube on a wide ground: %.4f mm deep\n", 1e3 * depth);
-    assert_true(depth < 0.5e-3);
-    rlf_world_destroy(&world);
+    add_body(world, &def);
+    advance_steps(world, NULL, 60, 1.0 / 30);
+    double depth = body_at(world, 1)->T_world_body.p.y + 0.05;
+    assert_less(depth, 0.5e-3);
 }
 
 /* More pairs at one body than the solver has colours for: 81 cubes on a plate, which stands on a
  * grid. */
-static void a_plate_carries_many(void **state)
+TEST_CASE(a_plate_carries_many)
 {
-    (void)state;
     grid_fixture *f = grid_fixture_create();
     grid_plane room[2] = {grid_floor(1.0), grid_wall(4)};
     grid_fixture_set_room(f, room, 2);
-    rlf_world *world = make_world(9.81);
     rlf_body_def def = rlf_body_def_default();
     def.shape.size = rlf_vec3_make(1.2, 0.06, 1.2);
     def.mass = 20.0;
     def.position = rlf_vec3_make(0.0, 0.97, 2.8);
-    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    add_body(world, &def);
     def = rlf_body_def_default();
     def.restitution = 0.0;
     for (int i = 0; i < 81; i++) {
         def.position = rlf_vec3_make(0.13 * (i % 9 - 4), 0.88, 2.8 + 0.13 * (i / 9 - 4));
-        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+        add_body(world, &def);
     }
     for (int k = 0; k < 90; k++) {
         f->grid.time_ns = k;
         rlf_world_advance(world, &f->grid, 1.0 / 30);
     }
     for (int i = 1; i <= 81; i++) {
-        rlf_vec3 p = body(world, i)->T_world_body.p;
+        rlf_vec3 p = body_at(world, i)->T_world_body.p;
         assert_float_equal(p.y, 0.89, 2e-3);
         assert_float_equal(p.x, 0.13 * ((i - 1) % 9 - 4), 5e-3);
     }
-    rlf_world_destroy(&world);
     grid_fixture_destroy(&f);
 }
 
-static void bodies_may_ignore_bodies(void **state)
+TEST_CASE(bodies_may_ignore_bodies)
 {
-    (void)state;
-    rlf_world *world = make_world(0);
+    no_gravity();
     rlf_body_def def = body_of(RLF_SHAPE_BOX);
     def.collides_with_bodies = false;
     def.position = rlf_vec3_make(-0.3, 0, 1);
@@ -280,26 +176,9 @@ static void bodies_may_ignore_bodies(void **state)
     def.position = rlf_vec3_make(0, 0, 1);
     def.velocity = rlf_vec3_make(0, 0, 0);
     rlf_world_add_body(world, &def, NULL);
-    for (int k = 0; k < 20; k++) {
-        rlf_world_advance(world, NULL, 1.0 / 30);
-    }
-    assert_true(body(world, 0)->velocity.x == 2.0);
-    assert_true(body(world, 1)->velocity.x == 0.0);
-    rlf_world_destroy(&world);
+    advance_steps(world, NULL, 20, 1.0 / 30);
+    assert_true(body_at(world, 0)->velocity.x == 2.0);
+    assert_true(body_at(world, 1)->velocity.x == 0.0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(head_on_swaps),
-        cmocka_unit_test(chain_of_balls),
-        cmocka_unit_test(slow_balls_swap),
-        cmocka_unit_test(slow_cube_rests),
-        cmocka_unit_test(momentum_is_conserved),
-        cmocka_unit_test(stack_of_ten),
-        cmocka_unit_test(a_wide_ground_holds),
-        cmocka_unit_test(a_plate_carries_many),
-        cmocka_unit_test(bodies_may_ignore_bodies),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(start_world, stop_world)

@@ -7,22 +7,6 @@
 #define SECONDS 4
 #define MOVED 0.01 /* m */
 
-static int set_up(void **state)
-{
-    (void)state;
-    grid_room_create();
-    return 0;
-}
-
-static rlf_world *start(void)
-{
-    rlf_world_def def = rlf_world_def_default();
-    rlf_world *world = NULL;
-    def.body_capacity = 16;
-    assert_int_equal(rlf_world_create(&def, &world), RLF_OK);
-    return world;
-}
-
 static void add(rlf_world *world, rlf_vec3 size, double mass, rlf_vec3 p)
 {
     rlf_body_def def = rlf_body_def_default();
@@ -30,7 +14,7 @@ static void add(rlf_world *world, rlf_vec3 size, double mass, rlf_vec3 p)
     def.mass = mass;
     def.restitution = 0.0;
     def.position = p;
-    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    add_body(world, &def);
 }
 
 /* How far any body is from where it was after some seconds, metres; 1 where one still moves. */
@@ -59,7 +43,7 @@ static double run(rlf_world **world)
 /* Cubes one on the other, the i-th of mass[i]. */
 static double stack(int count, const double *masses)
 {
-    rlf_world *world = start();
+    rlf_world *world = small_world(rlf_vec3_make(0, 9.81, 0));
     for (int i = 0; i < count; i++) {
         double up = (0.5 + i) * SIDE + (1 + i) * GAP;
         add(world, rlf_vec3_make(SIDE, SIDE, SIDE), masses[i],
@@ -70,9 +54,8 @@ static double stack(int count, const double *masses)
 
 static const double ratios[5] = {10, 100, 300, 1000, 3000};
 
-static void heavy_one_stands_on_light_ones(void **state)
+TEST_CASE(heavy_one_stands_on_light_ones)
 {
-    (void)state;
     double most = 0.0;
     for (int lights = 1; lights <= 3; lights++) {
         for (int k = 0; k < 5; k++) {
@@ -81,28 +64,24 @@ static void heavy_one_stands_on_light_ones(void **state)
             most = rlf_max(most, stack(lights + 1, masses));
         }
     }
-    print_message("on up to three: %.1f mm\n", 1e3 * most);
-    assert_true(most < MOVED);
+    assert_less(most, MOVED);
 }
 
-static void light_and_heavy_ones_stand_in_turn(void **state)
+TEST_CASE(light_and_heavy_ones_stand_in_turn)
 {
-    (void)state;
     double most = 0.0;
     for (int k = 0; k < 5; k++) {
         const double masses[4] = {0.1, 0.1 * ratios[k], 0.1, 0.1 * ratios[k]};
         most = rlf_max(most, stack(4, masses));
     }
-    print_message("in turn: %.1f mm\n", 1e3 * most);
-    assert_true(most < MOVED);
+    assert_less(most, MOVED);
 }
 
-static void heavy_board_stands_on_two_light_cubes(void **state)
+TEST_CASE(heavy_board_stands_on_two_light_cubes)
 {
-    (void)state;
     double most = 0.0;
     for (int k = 0; k < 5; k++) {
-        rlf_world *world = start();
+        rlf_world *world = small_world(rlf_vec3_make(0, 9.81, 0));
         for (int side = -1; side <= 1; side += 2) {
             add(world, rlf_vec3_make(SIDE, SIDE, SIDE), 0.1,
                 rlf_vec3_make(0.15 * side, GRID_ROOM_FLOOR - 0.5 * SIDE - GAP, 2.4));
@@ -111,16 +90,7 @@ static void heavy_board_stands_on_two_light_cubes(void **state)
             rlf_vec3_make(0, GRID_ROOM_FLOOR - 1.5 * SIDE - 2 * GAP, 2.4));
         most = rlf_max(most, run(&world));
     }
-    print_message("on two: %.1f mm\n", 1e3 * most);
-    assert_true(most < MOVED);
+    assert_less(most, MOVED);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(heavy_one_stands_on_light_ones),
-        cmocka_unit_test(light_and_heavy_ones_stand_in_turn),
-        cmocka_unit_test(heavy_board_stands_on_two_light_cubes),
-    };
-    return cmocka_run_group_tests(tests, set_up, grid_room_destroy);
-}
+TEST_GROUP(grid_room_start, grid_room_destroy)

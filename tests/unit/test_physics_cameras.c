@@ -1,6 +1,6 @@
 /* One world that two cameras see: what one of them shows counts, what the other only guesses does
  * not. They face each other across a room, 4 m apart. */
-#include "relief/world.h"
+#include "created.h"
 #include "test.h"
 
 #include "count_assert.h"
@@ -55,9 +55,8 @@ static rlf_world *make_world(const rlf_body_def *body, double gravity)
     def.body_capacity = 4;
     def.contact_capacity = 256;
     def.camera_capacity = 2;
-    rlf_world *world = NULL;
-    assert_int_equal(rlf_world_create(&def, &world), RLF_OK);
-    assert_int_equal(rlf_world_add_body(world, body, NULL), RLF_OK);
+    rlf_world *world = world_of(&def);
+    add_body(world, body);
     return world;
 }
 
@@ -100,23 +99,19 @@ static double turns_at(double guess, bool with_both)
     return least;
 }
 
-static void a_back_is_where_the_other_camera_sees_it(void **state)
+TEST_CASE(a_back_is_where_the_other_camera_sees_it)
 {
-    (void)state;
     for (int k = 0; k < 3; k++) {
         const double guess = 0.1 + 0.2 * k; /* too thin, and twice too thick */
         const double alone = turns_at(guess, false), both = turns_at(guess, true);
-        print_message("guess %.1f m: turns round at %.3f by one camera, %.3f by both\n", guess,
-                      alone, both);
         assert_true(fabs(both - BACK) < 0.11); /* 3 m/s between two frames */
         assert_true(k == 0 || alone > FRONT + guess - 0.02);
     }
 }
 
 /* The floor behind the board, which hides it from the first. */
-static void a_ball_rests_on_what_only_the_second_sees(void **state)
+TEST_CASE(a_ball_rests_on_what_only_the_second_sees)
 {
-    (void)state;
     rlf_body_def def = ball(0.05);
     def.position = rlf_vec3_make(0.1, 0.5, 2.25);
     set_room(0.8);
@@ -131,9 +126,8 @@ static void a_ball_rests_on_what_only_the_second_sees(void **state)
 }
 
 /* In the same place the first camera alone takes the body to be inside of the board. */
-static void the_first_alone_pushes_it_out(void **state)
+TEST_CASE(the_first_alone_pushes_it_out)
 {
-    (void)state;
     rlf_body_def def = ball(0.05);
     def.position = rlf_vec3_make(0.1, 0.5, 2.9);
     def.velocity = rlf_vec3_make(0, 0, -0.5);
@@ -149,9 +143,8 @@ static void the_first_alone_pushes_it_out(void **state)
 }
 
 /* What both see of one floor is one floor: a crate lies on it as on one camera's. */
-static void one_floor_seen_twice_is_one(void **state)
+TEST_CASE(one_floor_seen_twice_is_one)
 {
-    (void)state;
     double heights[2];
     for (int both = 0; both < 2; both++) {
         rlf_body_def def = rlf_body_def_default();
@@ -173,9 +166,8 @@ static void one_floor_seen_twice_is_one(void **state)
 }
 
 /* A camera that goes and comes back: what only it saw goes, too, and a sleeper wakes. */
-static void a_camera_that_goes_takes_its_floor_along(void **state)
+TEST_CASE(a_camera_that_goes_takes_its_floor_along)
 {
-    (void)state;
     rlf_body_def def = ball(0.05);
     def.position = rlf_vec3_make(0.1, 0.9, 2.25);
     set_room(0.1);
@@ -194,9 +186,8 @@ static void a_camera_that_goes_takes_its_floor_along(void **state)
 }
 
 /* Two grids of one camera, or more cameras than there is room for, are the caller's mistake. */
-static void lists_that_are_wrong_are_told(void **state)
+TEST_CASE(lists_that_are_wrong_are_told)
 {
-    (void)state;
     const rlf_body_def def = ball(0.05);
     int told = 0;
     set_room(0.1);
@@ -214,15 +205,4 @@ static void lists_that_are_wrong_are_told(void **state)
     rlf_world_destroy(&world);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_back_is_where_the_other_camera_sees_it),
-        cmocka_unit_test(a_ball_rests_on_what_only_the_second_sees),
-        cmocka_unit_test(the_first_alone_pushes_it_out),
-        cmocka_unit_test(one_floor_seen_twice_is_one),
-        cmocka_unit_test(a_camera_that_goes_takes_its_floor_along),
-        cmocka_unit_test(lists_that_are_wrong_are_told),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+TEST_GROUP(set_up, tear_down)

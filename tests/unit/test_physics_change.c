@@ -1,7 +1,6 @@
 /* What stays turns out to be nearer than it was taken to be, and a body lies there: it comes out,
  * and falls through nothing. */
 #include "grid_room.h"
-#include "small_world.h"
 #include "test.h"
 
 #define HALF 0.05
@@ -49,13 +48,12 @@ static rlf_vec3 change(rlf_shape_type type, double y, const block *before, const
 {
     rlf_world_def world_def = small_world_def();
     world_def.border = RLF_BORDER_EXTEND;
-    rlf_world *world = NULL;
-    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
+    rlf_world *world = world_of(&world_def);
     rlf_body_def def = rlf_body_def_default();
     def.shape = (rlf_shape){.type = type, .radius = HALF};
     def.shape.size = rlf_vec3_make(2 * HALF, 2 * HALF, 2 * HALF);
     def.position = rlf_vec3_make(0, y - HALF, BODY_Z);
-    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    add_body(world, &def);
     paint(before);
     rlf_vec3 p = go_on(world, 20).T_world_body.p;
     assert_true(rlf_length(rlf_sub(p, def.position)) < 0.005);
@@ -73,20 +71,12 @@ static bool is_outside(const block *b, rlf_vec3 p)
     return p.y < GRID_ROOM_FLOOR && (is_beside || is_before || p.y < b->top - HALF + SLACK);
 }
 
-static int set_up(void **state)
-{
-    (void)state;
-    grid_room_create();
-    return 0;
-}
-
 static const rlf_shape_type SHAPES[2] = {RLF_SHAPE_BOX, RLF_SHAPE_SPHERE};
 static const double STEPS[6] = {0.01, 0.02, 0.04, 0.06, 0.08, 0.12};
 
 /* By as much as the last rows of tops seen at a low angle are off. */
-static void top_comes_up_under_it(void **state)
+TEST_CASE(top_comes_up_under_it)
 {
-    (void)state;
     for (int k = 0; k < 6; k++) {
         const block before = {0.3, 0.5, 2.3};
         block after = before;
@@ -95,9 +85,8 @@ static void top_comes_up_under_it(void **state)
     }
 }
 
-static void front_comes_out_over_it(void **state)
+TEST_CASE(front_comes_out_over_it)
 {
-    (void)state;
     for (int k = 0; k < 12; k++) {
         const block before = {0.3, 0.5, 2.5 + HALF};
         block after = before;
@@ -108,9 +97,8 @@ static void front_comes_out_over_it(void **state)
 }
 
 /* A leg is two pixels wider, or six: it comes out before it, beside it or behind it. */
-static void side_grows_over_it(void **state)
+TEST_CASE(side_grows_over_it)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         const block before = {0.0, 0.5, 2.46};
         const block after = {k < 2 ? 0.007 : 0.02, 0.5, 2.46};
@@ -121,12 +109,4 @@ static void side_grows_over_it(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(top_comes_up_under_it),
-        cmocka_unit_test(front_comes_out_over_it),
-        cmocka_unit_test(side_grows_over_it),
-    };
-    return cmocka_run_group_tests(tests, set_up, grid_room_destroy);
-}
+TEST_GROUP(grid_room_start, grid_room_destroy)

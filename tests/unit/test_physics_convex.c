@@ -1,13 +1,12 @@
 /* Distance and depth of convex shapes against closed forms and against their definition; what they
  * make of bodies that cross, are fast, or lie in a heap. */
 #include "count_assert.h"
+#include "draws.h"
+#include "hulls.h"
 #include "physics/shape/convex.h"
 #include "physics/shape/shape.h"
 #include "relief/query.h"
-#include "relief/world.h"
-#include "small_world.h"
 #include "test.h"
-
 #include "grid_room.h"
 
 #include <math.h>
@@ -15,23 +14,9 @@
 
 static uint64_t seed = 7;
 
-static double next(double low, double high)
-{
-    seed = seed * 6364136223846793005u + 1442695040888963407u;
-    return low + (high - low) * ((double)(seed >> 11) / 9007199254740992.0);
-}
-
-static rlf_vec3 next_vector(double size)
-{
-    rlf_vec3 v = {next(-size, size), next(-size, size), next(-size, size)};
-    return v;
-}
-
 static const rlf_vec3 TIPS[6] = {{0.1, 0, 0},  {-0.1, 0, 0}, {0, 0.1, 0},
                                  {0, -0.1, 0}, {0, 0, 0.1},  {0, 0, -0.1}};
-static const int32_t TIP_FACES[24] = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4,
-                                      2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
-static const rlf_hull OCTAHEDRON = {TIPS, 6, TIP_FACES, 8};
+static const rlf_hull OCTAHEDRON = {TIPS, 6, OCTAHEDRON_FACES, 8};
 
 /* A roof along z whose ridge is at the top, y = -0.06. */
 static const rlf_vec3 ROOF[6] = {{-0.05, 0.03, -0.2}, {0.05, 0.03, -0.2}, {0, -0.06, -0.2},
@@ -67,7 +52,8 @@ static rlf_shape shape_of(kind k, double scale)
 
 static convex_core core_of(const rlf_shape *shape, rlf_vec3 at)
 {
-    convex_core core = {shape, rlf_quat_to_mat3(rlf_quat_from_rotation_vector(next_vector(3))), at};
+    convex_core core = {shape,
+                        rlf_quat_to_mat3(rlf_quat_from_rotation_vector(draw_vector(&seed, 3))), at};
     return core;
 }
 
@@ -88,9 +74,8 @@ static double nearest_of_many(const convex_core *segment, const convex_core *oth
     return best;
 }
 
-static void distance_is_that_of_the_nearest_points(void **state)
+TEST_CASE(distance_is_that_of_the_nearest_points)
 {
-    (void)state;
     const rlf_shape segment = shape_of(CAPSULE, 1);
     double worst = 0;
     int apart = 0;
@@ -100,7 +85,7 @@ static void distance_is_that_of_the_nearest_points(void **state)
             continue; /* their distance holds the rounding */
         }
         convex_core a = core_of(&segment, rlf_vec3_make(0, 0, 0));
-        convex_core b = core_of(&other, next_vector(0.25));
+        convex_core b = core_of(&other, draw_vector(&seed, 0.25));
         convex_gap gap;
         convex_simplex simplex;
         double many = nearest_of_many(&a, &b);
@@ -108,12 +93,10 @@ static void distance_is_that_of_the_nearest_points(void **state)
         if (many > 1e-3) {
             assert_true(is_apart);
             worst = fmax(worst, fabs(gap.distance - many));
-            assert_true(fabs(rlf_length(rlf_sub(gap.on_a, gap.on_b)) - gap.distance) < 1e-9);
+            assert_less(fabs(rlf_length(rlf_sub(gap.on_a, gap.on_b)) - gap.distance), 1e-9);
             apart++;
         }
     }
-    print_message("distance: %d pairs apart, at most %.2e m off the nearest of many\n", apart,
-                  worst);
     assert_true(apart > 150 && worst < 1e-5);
 }
 
@@ -124,9 +107,8 @@ static double depth_along(const convex_core *a, const convex_core *b, rlf_vec3 d
 }
 
 /* Moved by its depth a shape just touches, and there is no shorter way out. */
-static void depth_is_the_shortest_way_out(void **state)
+TEST_CASE(depth_is_the_shortest_way_out)
 {
-    (void)state;
     double worst = 0;
     int deep = 0;
     for (int i = 0; i < 1200; i++) {
@@ -135,7 +117,8 @@ static void depth_is_the_shortest_way_out(void **state)
         if (one.type == RLF_SHAPE_SPHERE || one.type == RLF_SHAPE_CAPSULE) {
             continue; /* cores without volume */
         }
-        convex_core a = core_of(&one, rlf_vec3_make(0, 0, 0)), b = core_of(&two, next_vector(0.06));
+        convex_core a = core_of(&one, rlf_vec3_make(0, 0, 0)),
+                    b = core_of(&two, draw_vector(&seed, 0.06));
         convex_gap gap;
         convex_simplex simplex;
         if (convex_distance(&a, &b, 1e9, &gap, &simplex)) {
@@ -146,21 +129,20 @@ static void depth_is_the_shortest_way_out(void **state)
         double along = depth_along(&a, &b, rlf_neg(gap.normal));
         worst = fmax(worst, fabs(along + gap.distance));
         for (int k = 0; k < 60; k++) {
-            rlf_vec3 d = rlf_normalize(rlf_add(rlf_neg(gap.normal), next_vector(k < 30 ? 0.1 : 2)));
-            assert_true(depth_along(&a, &b, d) > -gap.distance * 0.998 - 2e-7);
+            rlf_vec3 d =
+                rlf_normalize(rlf_add(rlf_neg(gap.normal), draw_vector(&seed, k < 30 ? 0.1 : 2)));
+            assert_less(-gap.distance * 0.998 - 2e-7, depth_along(&a, &b, d));
         }
         double off = rlf_dot(gap.normal, rlf_sub(gap.on_a, gap.on_b)) - gap.distance;
-        assert_true(fabs(off) < 1e-9);
+        assert_less(fabs(off), 1e-9);
         deep++;
     }
-    print_message("depth: %d pairs, at most %.2e m short of the way out\n", deep, worst);
     assert_true(deep > 300 && worst < 2e-4);
 }
 
 /* No shape, a hull without its mesh and nowhere to write to are told, and nothing is done. */
-static void a_missing_shape_is_refused(void **state)
+TEST_CASE(a_missing_shape_is_refused)
 {
-    (void)state;
     const rlf_hull empty = {0};
     const rlf_shape no_mesh = {.type = RLF_SHAPE_HULL},
                     no_points = {RLF_SHAPE_HULL, .hull = &empty};
@@ -186,9 +168,8 @@ static void a_missing_shape_is_refused(void **state)
 }
 
 /* Beyond a hull's tip and edge the nearest point is the tip, or on the edge. */
-static void distance_to_a_hull_is_exact(void **state)
+TEST_CASE(distance_to_a_hull_is_exact)
 {
-    (void)state;
     const rlf_shape shape = shape_of(TIPPED, 1);
     rlf_vec3 gradient;
     double d = rlf_shape_distance(&shape, rlf_vec3_make(0.3, 0, 0), &gradient);
@@ -207,14 +188,12 @@ static rlf_world *make_world(double gravity)
     def.gravity = rlf_vec3_make(0, gravity, 0);
     def.body_capacity = 64;
     def.contact_capacity = 256;
-    rlf_world *world = NULL;
-    assert_int_equal(rlf_world_create(&def, &world), RLF_OK);
-    return world;
+    return world_of(&def);
 }
 
 static void add(rlf_world *world, const rlf_body_def *def)
 {
-    assert_int_equal(rlf_world_add_body(world, def, NULL), RLF_OK);
+    add_body(world, def);
 }
 
 static const rlf_body_state *body(const rlf_world *world, int i)
@@ -246,18 +225,14 @@ static void across(kind below, rlf_vec3 turn_below, kind above, rlf_vec3 turn_ab
     def.shape.size = rlf_vec3_make(0.3, 0.08, 0.08);
     def.restitution = 0;
     add(world, &def);
-    for (int k = 0; k < 15; k++) {
-        rlf_world_advance(world, NULL, 1.0 / 30);
-    }
+    advance_steps(world, NULL, 15, 1.0 / 30);
     double off = -body(world, 1)->T_world_body.p.y - height;
-    print_message("%s across %s: %.2f mm off\n", NAMES[above], NAMES[below], 1e3 * off);
-    assert_true(fabs(off) < 1.5e-3);
+    assert_less(fabs(off), 1.5e-3);
     rlf_world_destroy(&world);
 }
 
-static void edges_meet_edges(void **state)
+TEST_CASE(edges_meet_edges)
 {
-    (void)state;
     const double QUARTER = 0.5 * RLF_PI;
     const rlf_vec3 none = {0, 0, 0}, along_z = {QUARTER, 0, 0}, along_x = {0, 0, QUARTER};
     rlf_vec3 over = {0, 0, RLF_PI}; /* the ridge looks down; a quarter turn about y crosses it */
@@ -315,9 +290,8 @@ static int count_through(kind thrown, kind target, double speed)
     return through;
 }
 
-static void nothing_passes_however_fast(void **state)
+TEST_CASE(nothing_passes_however_fast)
 {
-    (void)state;
     const kind targets[3] = {BOX, CYLINDER, TIPPED};
     const double speeds[4] = {2, 10, 25, 50};
     for (int k = 0; k < KINDS; k++) {
@@ -364,9 +338,8 @@ static int count_overlaps(const rlf_world *world, const int *kinds, int first, d
 }
 
 /* A heap of any shapes comes to rest, nothing in anything else. */
-static void heaps_come_to_rest(void **state)
+TEST_CASE(heaps_come_to_rest)
 {
-    (void)state;
     for (int which = 0; which <= KINDS; which++) {
         rlf_world *world = make_world(9.81);
         int kinds[64] = {0};
@@ -374,19 +347,17 @@ static void heaps_come_to_rest(void **state)
         for (int i = 0; i < 24; i++) {
             kind k = (kind)(which < KINDS ? which : i % KINDS);
             rlf_body_def def = body_of(k);
-            def.position = rlf_vec3_make(0.2 * (i % 3 - 1) + next(-0.01, 0.01),
-                                         0.3 - 0.3 * (i / 6) + next(-0.01, 0.01),
-                                         0.9 + 0.2 * (i / 3 % 2) + next(-0.01, 0.01));
-            def.orientation = rlf_quat_from_rotation_vector(next_vector(2));
+            def.position = rlf_vec3_make(0.2 * (i % 3 - 1) + draw(&seed, -0.01, 0.01),
+                                         0.3 - 0.3 * (i / 6) + draw(&seed, -0.01, 0.01),
+                                         0.9 + 0.2 * (i / 3 % 2) + draw(&seed, -0.01, 0.01));
+            def.orientation = rlf_quat_from_rotation_vector(draw_vector(&seed, 2));
             def.restitution = 0.2;
             def.rolling_resistance = 0.05;
             kinds[5 + i] = k;
             add(world, &def);
         }
         int awake = 0;
-        for (int k = 0; k < 240; k++) {
-            rlf_world_advance(world, NULL, 1.0 / 30);
-        }
+        advance_steps(world, NULL, 240, 1.0 / 30);
         assert_int_equal(rlf_world_get_snapshot(world)->body_count, 29);
         for (int i = 5; i < 29; i++) {
             awake += !body(world, i)->is_asleep;
@@ -403,56 +374,30 @@ static void heaps_come_to_rest(void **state)
 #define RINGS 21
 #define SEGMENTS 24
 
-/* A ball of many small faces about the y axis, 10 cm in radius. */
-static const rlf_hull *faceted_ball(void)
+/* Of 504 corners 64 are sample points; it stands on the others, too. */
+TEST_CASE(fine_hulls_rest_on_the_surface)
 {
-    static rlf_vec3 vertices[RINGS * SEGMENTS];
-    static int32_t triangles[6 * RINGS * SEGMENTS];
-    int32_t n = 0;
+    static turned_hull ball; /* of 10 cm radius */
+    turned_ring rings[RINGS];
+    double worst = 0;
     for (int r = 0; r < RINGS; r++) {
         double polar = RLF_PI * (r + 0.02) / (RINGS - 0.96);
-        for (int s = 0; s < SEGMENTS; s++) {
-            double turn = 2 * RLF_PI * s / SEGMENTS;
-            vertices[r * SEGMENTS + s] = rlf_vec3_make(
-                0.1 * sin(polar) * cos(turn), 0.1 * cos(polar), 0.1 * sin(polar) * sin(turn));
-            int32_t a = r * SEGMENTS + s, b = r * SEGMENTS + (s + 1) % SEGMENTS;
-            const int32_t side[6] = {a, b, a + SEGMENTS, b, b + SEGMENTS, a + SEGMENTS};
-            for (int k = 0; k < 6 && r + 1 < RINGS; k++) {
-                triangles[n++] = side[k];
-            }
-        }
+        rings[r] = (turned_ring){0.1 * cos(polar), 0.1 * sin(polar)};
     }
-    for (int s = 1; s + 1 < SEGMENTS; s++) {
-        const int32_t last = (RINGS - 1) * SEGMENTS;
-        const int32_t caps[6] = {0, s + 1, s, last, last + s, last + s + 1};
-        for (int k = 0; k < 6; k++) {
-            triangles[n++] = caps[k];
-        }
-    }
-    static rlf_hull hull;
-    hull = (rlf_hull){vertices, RINGS * SEGMENTS, triangles, n / 3};
-    return &hull;
-}
-
-/* Of 504 corners 64 are sample points; it stands on the others, too. */
-static void fine_hulls_rest_on_the_surface(void **state)
-{
-    (void)state;
+    turned_hull_make(&ball, rings, RINGS, SEGMENTS);
     grid_room_create();
-    double worst = 0;
     for (int i = 0; i < 4; i++) {
         rlf_body_def def = rlf_body_def_default();
-        def.shape = (rlf_shape){.type = RLF_SHAPE_HULL, .hull = faceted_ball()};
+        def.shape = (rlf_shape){.type = RLF_SHAPE_HULL, .hull = &ball.hull};
         def.position = rlf_vec3_make(0, GRID_ROOM_FLOOR - 0.12, 2);
-        def.orientation = rlf_quat_from_rotation_vector(next_vector(3));
+        def.orientation = rlf_quat_from_rotation_vector(draw_vector(&seed, 3));
         def.restitution = 0;
         def.rolling_resistance = 0.1;
         grid_room_way way = grid_room_run(RLF_BORDER_OPEN, &def, 60);
         assert_true(way.is_there);
         worst = fmax(worst, fabs(GRID_ROOM_FLOOR - way.p.y - 0.1));
     }
-    print_message("a ball of 504 corners rests at most %.2f mm off its radius\n", 1e3 * worst);
-    assert_true(worst < 1.5e-3);
+    assert_less(worst, 1.5e-3);
     grid_fixture_destroy(&grid_room);
 }
 
@@ -486,9 +431,8 @@ static const rlf_hull *box_of_many_corners(void)
 }
 
 /* Edge on edge in a line, where rounding decides which corners are cut away. */
-static void corners_in_a_line_stand(void **state)
+TEST_CASE(corners_in_a_line_stand)
 {
-    (void)state;
     for (int i = 0; i < 12; i++) {
         rlf_world *world = make_world(9.81);
         rlf_body_def def = rlf_body_def_default();
@@ -501,40 +445,20 @@ static void corners_in_a_line_stand(void **state)
         def.restitution = 0;
         def.position.y = -0.101;
         add(world, &def);
-        for (int k = 0; k < 30; k++) {
-            rlf_world_advance(world, NULL, 1.0 / 30);
-        }
+        advance_steps(world, NULL, 30, 1.0 / 30);
         assert_true(fabs(body(world, 1)->T_world_body.p.y + 0.1) < 1e-3);
         assert_true(fabs(body(world, 1)->T_world_body.p.x - 0.1 * i) < 1e-3);
         rlf_world_destroy(&world);
     }
 }
 
-static void open_hulls_are_refused(void **state)
+TEST_CASE(open_hulls_are_refused)
 {
-    (void)state;
     rlf_world *world = make_world(0);
     rlf_body_def def = body_of(TIPPED);
-    const rlf_hull half = {TIPS, 6, TIP_FACES, 4};
+    const rlf_hull half = {TIPS, 6, OCTAHEDRON_FACES, 4};
     def.shape.hull = &half;
     assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_ERROR_INVALID);
     assert_non_null(strstr(rlf_error_text(), "not closed"));
     rlf_world_destroy(&world);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(distance_is_that_of_the_nearest_points),
-        cmocka_unit_test(depth_is_the_shortest_way_out),
-        cmocka_unit_test(a_missing_shape_is_refused),
-        cmocka_unit_test(distance_to_a_hull_is_exact),
-        cmocka_unit_test(edges_meet_edges),
-        cmocka_unit_test(nothing_passes_however_fast),
-        cmocka_unit_test(heaps_come_to_rest),
-        cmocka_unit_test(fine_hulls_rest_on_the_surface),
-        cmocka_unit_test(corners_in_a_line_stand),
-        cmocka_unit_test(open_hulls_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

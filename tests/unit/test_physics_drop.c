@@ -1,7 +1,6 @@
 /* Bodies that fall without restitution stop where they land: a blow turns neither depth nor what is
  * above the ground into speed. */
 #include "grid_room.h"
-#include "small_world.h"
 #include "test.h"
 
 #include <math.h>
@@ -73,8 +72,7 @@ static rlf_world *drop_all(int shape, int size, bool is_flat)
     const rlf_vec3 places[PLACES] = {{0.3, 0, 3.0}, {-0.4, 0, 2.5}, {0.9, 0, 2.0}, {0.0, 0, 3.7}};
     rlf_world_def world_def = small_world_def();
     world_def.body_capacity = DROPS;
-    rlf_world *world = NULL;
-    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
+    rlf_world *world = world_of(&world_def);
     for (int i = 0; i < DROPS; i++) {
         int speed = i / PLACES;
         rlf_body_def def = rlf_body_def_default();
@@ -90,7 +88,7 @@ static rlf_world *drop_all(int shape, int size, bool is_flat)
         } else if (shape == 2) {
             def.orientation = rlf_quat_from_axis_angle(rlf_vec3_make(0, 0, 1), RLF_PI / 2);
         }
-        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+        add_body(world, &def);
     }
     return world;
 }
@@ -129,9 +127,8 @@ static void drop_flat(int shape, int size)
     rlf_world_destroy(&world);
 }
 
-static void what_falls_flat_stops_where_it_lands(void **state)
+TEST_CASE(what_falls_flat_stops_where_it_lands)
 {
-    (void)state;
     for (int k = 0; k < SHAPES * SIZES; k++) {
         drop_flat(k % SHAPES, k / SHAPES);
     }
@@ -168,19 +165,11 @@ static void drop_turned(int shape, int size)
     rlf_world_destroy(&world);
 }
 
-static void no_drop_gains_energy(void **state)
+TEST_CASE(no_drop_gains_energy)
 {
-    (void)state;
     for (int k = 0; k < SHAPES * SIZES; k++) {
         drop_turned(k % SHAPES, k / SHAPES);
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_falls_flat_stops_where_it_lands),
-        cmocka_unit_test(no_drop_gains_energy),
-    };
-    return cmocka_run_group_tests(tests, set_up, grid_room_destroy);
-}
+TEST_GROUP(set_up, grid_room_destroy)

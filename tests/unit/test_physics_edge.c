@@ -81,9 +81,8 @@ static double depth_at(const rlf_grid *grid, int32_t x)
     return grid_guess_depth(grid, &grid->background, &cell, LIMIT);
 }
 
-static void what_is_round_is_as_deep_as_wide(void **state)
+TEST_CASE(what_is_round_is_as_deep_as_wide)
 {
-    (void)state;
     rlf_grid grid = paint(round_leg);
     for (int32_t x = 155; x <= 165; x++) {
         double deep = depth_at(&grid, x);
@@ -92,9 +91,8 @@ static void what_is_round_is_as_deep_as_wide(void **state)
 }
 
 /* Two pixels at each outline show nothing: they are no side of the solid. */
-static void missing_pixels_are_no_side(void **state)
+TEST_CASE(missing_pixels_are_no_side)
 {
-    (void)state;
     rlf_grid grid = paint(round_leg);
     for (int32_t i = 1; i < WIDTH * HEIGHT - 2; i++) {
         if (planes[2][i] == WALL && planes[2][i + 1] > 0.0F && planes[2][i + 1] < WALL) {
@@ -110,20 +108,9 @@ static void missing_pixels_are_no_side(void **state)
     }
 }
 
-static void a_side_beside_a_front_is_not_counted(void **state)
+TEST_CASE(a_side_beside_a_front_is_not_counted)
 {
-    (void)state;
     rlf_grid grid = paint(square_leg);
     double deep = depth_at(&grid, 160);
     assert_true(deep > 19.5 / FOCAL && deep < 20.5 / FOCAL);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_round_is_as_deep_as_wide),
-        cmocka_unit_test(missing_pixels_are_no_side),
-        cmocka_unit_test(a_side_beside_a_front_is_not_counted),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

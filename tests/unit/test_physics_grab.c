@@ -1,6 +1,7 @@
 /* Bodies held between sensed fingers: grasped, lifted, carried, let go, thrown; and not grabbed by
  * what only pushes, passes or rests beside. */
 #include "grid_hand.h"
+#include "grid_shared.h"
 #include "small_world.h"
 #include "test.h"
 
@@ -17,18 +18,20 @@ typedef struct grasp {
     bool is_fit;  /* the hand is known: what opens along the view is seen by its fit alone */
 } grasp;
 
-static rlf_world *make_world(const rlf_shape *shape, rlf_vec3 at, rlf_body_id *id)
+/* A table, and something on it. */
+static rlf_world *make_world(const rlf_shape *shape, rlf_vec3 at)
 {
+    const grid_plane room[2] = {grid_floor(TABLE), grid_wall(2)};
+    grid_fixture_set_room(fixture, room, 2);
     rlf_world_def def = small_world_def();
     def.body_capacity = 8;
     def.enable_grab = true;
-    rlf_world *world = NULL;
-    assert_int_equal(rlf_world_create(&def, &world), RLF_OK);
+    rlf_world *world = world_of(&def);
     rlf_body_def body = rlf_body_def_default();
     body.shape = *shape;
     body.position = at;
     body.restitution = 0.1;
-    assert_int_equal(rlf_world_add_body(world, &body, id), RLF_OK);
+    add_body(world, &body);
     return world;
 }
 
@@ -64,19 +67,11 @@ static rlf_vec3 way_at(double t, double *open)
     return rlf_vec3_make(0.5 * ramp(t, 1.6, 2.9), -0.2 * ramp(t, 0.8, 1.5), 0.0);
 }
 
-static const rlf_body_state *state_of(const rlf_world *world)
-{
-    return &rlf_world_get_snapshot(world)->bodies[0];
-}
-
 /* Grasps, lifts by 0.2 m, carries by 0.5 m, stays a second, opens. */
 static void run_grasp(const grasp *g)
 {
-    grid_fixture *fixture = grid_fixture_create();
-    grid_plane room[2] = {grid_floor(TABLE), grid_wall(2)};
-    grid_fixture_set_room(fixture, room, 2);
     rlf_vec3 start = {-0.25, TABLE - 0.5 * g->shape.size.y, 1.0};
-    rlf_world *world = make_world(&g->shape, start, NULL);
+    rlf_world *world = make_world(&g->shape, start);
     double slip = 0, drop = 0;
     rlf_vec3 off = {0, 0, 0}, last = {0, 0, 0};
     int held = 0, first = -1;
@@ -94,7 +89,7 @@ static void run_grasp(const grasp *g)
         fixture->grid.hands = &fitted;
         fixture->grid.hand_count = g->is_fit ? 1 : 0;
         rlf_world_advance(world, &fixture->grid, FRAME);
-        const rlf_body_state *body = state_of(world);
+        const rlf_body_state *body = body_at(world, 0);
         rlf_vec3 now = rlf_sub(body->T_world_body.p, hand.place);
         held += body->is_grabbed;
         first = first < 0 && body->is_grabbed ? frame : first;
@@ -107,18 +102,14 @@ static void run_grasp(const grasp *g)
         last = now;
     }
     drop = last.y;
-    print_message("GRASP %s: held %d frames from %d, slip %.1f mm, fell %.2f m\n", g->name, held,
-                  first, 1e3 * slip, drop);
-    assert_true(slip < 0.005);
-    assert_true(!state_of(world)->is_grabbed);
+    assert_less(slip, 0.005);
+    assert_true(!body_at(world, 0)->is_grabbed);
     assert_true(drop > 0.15); /* let go where the hand opened */
     rlf_world_destroy(&world);
-    grid_fixture_destroy(&fixture);
 }
 
-static void hands_lift_carry_and_let_go(void **state)
+TEST_CASE(hands_lift_carry_and_let_go)
 {
-    (void)state;
     const rlf_shape cube = {.type = RLF_SHAPE_BOX, .size = {0.06, 0.06, 0.06}};
     const rlf_shape large = {.type = RLF_SHAPE_BOX, .size = {0.12, 0.12, 0.12}};
     const rlf_vec3 down = {0, 1, 0}, right = {1, 0, 0}, away = {0, 0, 1};
@@ -134,37 +125,29 @@ static void hands_lift_carry_and_let_go(void **state)
 }
 
 /* One finger that pushes a cube across the table holds nothing. */
-static void what_pushes_does_not_hold(void **state)
+TEST_CASE(what_pushes_does_not_hold)
 {
-    (void)state;
     const rlf_shape cube = {.type = RLF_SHAPE_BOX, .size = {0.06, 0.06, 0.06}};
-    grid_fixture *fixture = grid_fixture_create();
-    grid_plane room[2] = {grid_floor(TABLE), grid_wall(2)};
-    grid_fixture_set_room(fixture, room, 2);
     rlf_vec3 start = {-0.1, TABLE - 0.03, 1.0};
-    rlf_world *world = make_world(&cube, start, NULL);
+    rlf_world *world = make_world(&cube, start);
     grid_hand hand = {.along = {0, 1, 0}, .across = {1, 0, 0}, .gap = 0.1, .is_one = true};
     for (int frame = 0; frame < 45; frame++) {
         hand.place = rlf_add(start, rlf_vec3_make(0.3 * frame * FRAME, 0, 0));
         hand.velocity = rlf_vec3_make(0.3, 0, 0);
         grid_hand_see(fixture, &hand, frame);
         rlf_world_advance(world, &fixture->grid, FRAME);
-        assert_true(!state_of(world)->is_grabbed);
+        assert_true(!body_at(world, 0)->is_grabbed);
     }
-    assert_true(state_of(world)->T_world_body.p.x > start.x + 0.2); /* it was pushed */
+    assert_true(body_at(world, 0)->T_world_body.p.x > start.x + 0.2); /* it was pushed */
     rlf_world_destroy(&world);
-    grid_fixture_destroy(&fixture);
 }
 
 /* One finger alone is seen; the fit knows the thumb. */
 static int32_t frames_held(bool closes, bool *is_let_go)
 {
     const rlf_shape cube = {.type = RLF_SHAPE_BOX, .size = {0.05, 0.05, 0.05}};
-    grid_fixture *fixture = grid_fixture_create();
-    grid_plane room[2] = {grid_floor(TABLE), grid_wall(2)};
-    grid_fixture_set_room(fixture, room, 2);
     rlf_vec3 start = {-0.1, TABLE - 0.025, 1.0};
-    rlf_world *world = make_world(&cube, start, NULL);
+    rlf_world *world = make_world(&cube, start);
     int32_t held = 0;
     for (int frame = 0; frame < 100; frame++) {
         const double t = frame * FRAME;
@@ -181,31 +164,20 @@ static int32_t frames_held(bool closes, bool *is_let_go)
         fixture->grid.hands = &fitted;
         fixture->grid.hand_count = 1;
         rlf_world_advance(world, &fixture->grid, FRAME);
-        held += state_of(world)->is_grabbed;
+        held += body_at(world, 0)->is_grabbed;
     }
-    *is_let_go = !state_of(world)->is_grabbed;
+    *is_let_go = !body_at(world, 0)->is_grabbed;
     rlf_world_destroy(&world);
-    grid_fixture_destroy(&fixture);
     return held;
 }
 
-static void a_fitted_hand_holds_where_it_closes(void **state)
+TEST_CASE(a_fitted_hand_holds_where_it_closes)
 {
-    (void)state;
     bool is_let_go = false;
     const int32_t held = frames_held(true, &is_let_go);
-    print_message("FITTED closes: held %d frames\n", (int)held);
     assert_true(held > 45 && held < 65); /* from 0.6 to 2.3 s */
     assert_true(is_let_go);
     assert_int_equal(frames_held(false, &is_let_go), 0); /* closed before: it only pushes */
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hands_lift_carry_and_let_go),
-        cmocka_unit_test(what_pushes_does_not_hold),
-        cmocka_unit_test(a_fitted_hand_holds_where_it_closes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(set_up, tear_down)

@@ -43,9 +43,8 @@ static rlf_shape shape_of(int k)
 }
 
 /* On their rays there is matter behind the table's far edge, 15 cm of it. */
-static void body_falls_freely_behind_a_tables_far_edge(void **state)
+TEST_CASE(body_falls_freely_behind_a_tables_far_edge)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         for (double gap = 0.02; gap < 0.1; gap += 0.02) {
             rlf_vec3 from = {0.1, -0.1, TOP_FAR + RADIUS + gap};
@@ -57,9 +56,8 @@ static void body_falls_freely_behind_a_tables_far_edge(void **state)
     }
 }
 
-static void body_lies_on_the_table(void **state)
+TEST_CASE(body_lies_on_the_table)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         for (double z = TOP_NEAR + 0.05; z < TOP_FAR - 0.04; z += 0.08) {
             rlf_vec3 p = drop(shape_of(k), rlf_vec3_make(0.1, TOP_Y - 0.2, z));
@@ -69,21 +67,12 @@ static void body_lies_on_the_table(void **state)
 }
 
 /* What is under it falls to the floor. */
-static void body_under_the_table_falls(void **state)
+TEST_CASE(body_under_the_table_falls)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rlf_vec3 p = drop(shape_of(k), rlf_vec3_make(0.1, TOP_Y + 0.25, 1.9));
         assert_true(p.y > 1.0 - RADIUS - 0.01);
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(body_falls_freely_behind_a_tables_far_edge),
-        cmocka_unit_test(body_lies_on_the_table),
-        cmocka_unit_test(body_under_the_table_falls),
-    };
-    return cmocka_run_group_tests(tests, set_up, grid_room_destroy);
-}
+TEST_GROUP(set_up, grid_room_destroy)

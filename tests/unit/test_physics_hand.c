@@ -1,26 +1,15 @@
 /* A sensed hand that carries a stack along a curve, and a crowd that somebody walks through. */
-#include "relief/world.h"
-#include "small_world.h"
+#include "each_world.h"
 #include "test.h"
-
-#include "grid_fixture.h"
+#include "grid_shared.h"
 
 #include <math.h>
 
 #define FRAME (1.0 / 30)
 #define CROWD 100
 
-static rlf_world *make_world(void)
-{
-    rlf_world_def def = small_world_def();
-    def.body_capacity = CROWD;
-    rlf_world *world = NULL;
-    assert_int_equal(rlf_world_create(&def, &world), RLF_OK);
-    return world;
-}
-
 /* The palm, 40 x 40 cm, on a circle of 0.3 m at `speed`, seen at time t. */
-static rlf_vec3 see_palm(grid_fixture *fixture, double t, double speed)
+static rlf_vec3 see_palm(double t, double speed)
 {
     const double RADIUS = 0.3;
     double angle = speed / RADIUS * t;
@@ -34,24 +23,21 @@ static rlf_vec3 see_palm(grid_fixture *fixture, double t, double speed)
 
 /* CARRY: three stacked cubes on a hand that moves at 0.5 m/s along a circle stay where they are on
  * it. */
-static void hand_carries_a_stack(void **state)
+TEST_CASE(hand_carries_a_stack)
 {
-    (void)state;
-    grid_fixture *fixture = grid_fixture_create();
     grid_plane room[2] = {grid_floor(1.2), grid_wall(5)};
     grid_fixture_set_room(fixture, room, 2);
-    rlf_world *world = make_world();
-    rlf_vec3 start = see_palm(fixture, 0, 0.5);
+    rlf_vec3 start = see_palm(0, 0.5);
     for (int k = 0; k < 3; k++) {
         rlf_body_def def = rlf_body_def_default();
         def.restitution = 0;
         def.velocity = rlf_vec3_make(0.5, 0, 0);
         def.position = rlf_vec3_make(start.x, start.y - 0.05 - 0.1 * k, start.z);
-        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+        add_body(world, &def);
     }
     double worst = 0;
     for (int frame = 1; frame <= 120; frame++) {
-        rlf_vec3 palm = see_palm(fixture, frame * FRAME, 0.5);
+        rlf_vec3 palm = see_palm(frame * FRAME, 0.5);
         rlf_world_advance(world, &fixture->grid, FRAME);
         for (int k = 0; k < 3; k++) {
             rlf_vec3 p = rlf_world_get_snapshot(world)->bodies[k].T_world_body.p;
@@ -59,32 +45,22 @@ static void hand_carries_a_stack(void **state)
             worst = rlf_max(worst, rlf_length(rlf_sub(p, place)));
         }
     }
-    print_message("CARRY: 4 s at 0.5 m/s on a circle: at most %.1f mm from their place\n",
-                  1e3 * worst);
-    assert_true(worst < 0.03);
-    rlf_world_destroy(&world);
-    grid_fixture_destroy(&fixture);
+    assert_less(worst, 0.03);
 }
 
 /* A board comes to a sleeping cube at 2.5 m/s, 8 cm a frame, whatever part of its way is left when
  * the frame begins in which it touches: it never passes. */
-static void board_wakes_a_sleeper_in_time(void **state)
+TEST_CASE(board_wakes_a_sleeper_in_time)
 {
-    (void)state;
     const double SPEED = 2.5, THICKNESS = 0.04;
-    grid_fixture *fixture = grid_fixture_create();
     grid_plane room[2] = {grid_floor(1.2), grid_wall(5)};
     grid_fixture_set_room(fixture, room, 2);
     for (int phase = 0; phase < 8; phase++) {
-        rlf_world *world = make_world();
         rlf_body_def def = rlf_body_def_default();
         def.position = rlf_vec3_make(0, 1.149, 2.8);
-        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+        add_body(world, &def);
         memset(fixture->mask, 0, (size_t)GRID_W * GRID_H);
-        for (int frame = 0; frame < 45; frame++) {
-            fixture->grid.time_ns++;
-            rlf_world_advance(world, &fixture->grid, FRAME);
-        }
+        advance_frames(world, &fixture->grid, 45, FRAME);
         const rlf_body_state *cube = &rlf_world_get_snapshot(world)->bodies[0];
         assert_true(cube->is_asleep);
         double ahead = 1.0;
@@ -98,9 +74,8 @@ static void board_wakes_a_sleeper_in_time(void **state)
             ahead = rlf_min(ahead, cube->T_world_body.p.z - z - THICKNESS);
         }
         assert_true(ahead > 0.045);
-        rlf_world_destroy(&world);
+        rlf_world_reset(world);
     }
-    grid_fixture_destroy(&fixture);
 }
 
 /* Floor, back wall and two side walls, all within the view. */
@@ -117,7 +92,7 @@ static bool is_lost(rlf_vec3 p)
 }
 
 /* Somebody 50 cm wide and 25 cm deep walks from side to side at 1 m/s. Returns x of the middle. */
-static double see_walker(grid_fixture *fixture, double t)
+static double see_walker(double t)
 {
     double phase = t / 2.4 - floor(t / 2.4);
     double direction = phase < 0.5 ? 1 : -1;
@@ -130,24 +105,21 @@ static double see_walker(grid_fixture *fixture, double t)
 
 /* CROWD: cubes fall while somebody walks through them; none gets out of the room in view, and none
  * stays inside the walker. */
-static void crowd_survives_a_walker(void **state)
+TEST_CASE(crowd_survives_a_walker)
 {
-    (void)state;
-    grid_fixture *fixture = grid_fixture_create();
     grid_fixture_set_room(fixture, ROOM, 4);
-    rlf_world *world = make_world();
     for (int i = 0; i < CROWD; i++) {
         rlf_body_def def = rlf_body_def_default();
         def.position = rlf_vec3_make(-0.8 + 0.178 * (i % 10), 0.8 - 0.16 * (i / 20),
                                      i / 10 % 2 == 0 ? 2.8 : 3.25);
         def.orientation = rlf_quat_from_rotation_vector(rlf_vec3_make(0.1 * i, 0.2 * i, 0.3 * i));
         def.release_time = 0.02 * i;
-        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+        add_body(world, &def);
     }
     bool was_lost[CROWD] = {false};
     int lost = 0, inside = 0, longest = 0, touched = 0, stay[CROWD] = {0};
     for (int frame = 0; frame < 240; frame++) {
-        double x = see_walker(fixture, frame * FRAME);
+        double x = see_walker(frame * FRAME);
         rlf_world_advance(world, &fixture->grid, FRAME);
         const rlf_snapshot *s = rlf_world_get_snapshot(world);
         for (int32_t i = 0; i < s->contact_count; i++) {
@@ -171,16 +143,7 @@ static void crowd_survives_a_walker(void **state)
     assert_int_equal(lost, 0);
     assert_true(touched > 100); /* he did walk through them */
     assert_true(longest <= 3);
-    rlf_world_destroy(&world);
-    grid_fixture_destroy(&fixture);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hand_carries_a_stack),
-        cmocka_unit_test(board_wakes_a_sleeper_in_time),
-        cmocka_unit_test(crowd_survives_a_walker),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_GROUP(set_up, tear_down)
+TEST_EACH(start_world, stop_world)

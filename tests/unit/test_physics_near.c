@@ -1,7 +1,6 @@
 /* The broad phase against every body held against every other. */
 #include "analytic.h"
 #include "physics/pair/collide.h"
-#include "relief/world.h"
 #include "small_world.h"
 #include "test.h"
 
@@ -22,7 +21,7 @@ static rlf_world *make_crowd(analytic_random *r, double spread)
     rlf_world_def def = small_world_def();
     def.body_capacity = BODIES;
     def.contact_capacity = BODIES * BODIES * 2;
-    assert_int_equal(rlf_world_create(&def, &world), RLF_OK);
+    world = world_of(&def);
     for (int32_t i = 0; i < BODIES; i++) {
         rlf_body_def body = rlf_body_def_default();
         double size = i % 50 == 0 ? 1.5 : between(r, 0.02, 0.2);
@@ -30,7 +29,7 @@ static rlf_world *make_crowd(analytic_random *r, double spread)
         body.position =
             rlf_vec3_make(between(r, -spread, spread), between(r, -0.5, 0.5), between(r, 1.0, 2.0));
         body.velocity = rlf_vec3_make(0, between(r, -5, 5), 0);
-        assert_int_equal(rlf_world_add_body(world, &body, NULL), RLF_OK);
+        add_body(world, &body);
         world->bodies[i].is_asleep = i % 4 == 1;
         world->bodies[i].inverse_mass *= i % 9 == 2 ? 0.0 : 1.0;
     }
@@ -71,9 +70,8 @@ static bool is_number(int32_t i)
     return i != 7;
 }
 
-static void near_ones_are_those_whose_boxes_overlap(void **state)
+TEST_CASE(near_ones_are_those_whose_boxes_overlap)
 {
-    (void)state;
     analytic_random r = {2};
     const double SPREADS[3] = {0.1, 1.0, 3.0};
     for (int32_t run = 0; run < 3; run++) {
@@ -85,9 +83,8 @@ static void near_ones_are_those_whose_boxes_overlap(void **state)
 }
 
 /* One that is far away, and a place that is no number, change nothing for the others. */
-static void odd_places_do_no_harm(void **state)
+TEST_CASE(odd_places_do_no_harm)
 {
-    (void)state;
     analytic_random r = {4};
     rlf_world *world = make_crowd(&r, 1.0);
     world->bodies[3].x = rlf_vec3_make(1e12, 0, 0);
@@ -95,13 +92,4 @@ static void odd_places_do_no_harm(void **state)
     phys_find_near(world, HORIZON);
     check(world, is_number);
     rlf_world_destroy(&world);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(near_ones_are_those_whose_boxes_overlap),
-        cmocka_unit_test(odd_places_do_no_harm),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

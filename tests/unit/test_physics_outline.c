@@ -45,57 +45,38 @@ static double met_behind(const block *b, rlf_shape_type type, double x)
 }
 
 /* The camera looks past the block's right side: a centimetre there is a third of a pixel. */
-static void a_flat_thing_is_no_deeper_than_its_outline_shows(void **state)
+TEST_CASE(a_flat_thing_is_no_deeper_than_its_outline_shows)
 {
-    (void)state;
     const block flat = {-0.75, -0.4, -0.2, 0.2, 0.0};
     for (int k = 0; k < 2; k++) {
         double deep = met_behind(&flat, k == 0 ? RLF_SHAPE_SPHERE : RLF_SHAPE_BOX, -0.5);
-        print_message("met %.3f m behind\n", deep);
         assert_true(deep > 0.0 && deep < 0.06);
     }
 }
 
-static void a_side_that_is_seen_belongs_to_the_solid(void **state)
+TEST_CASE(a_side_that_is_seen_belongs_to_the_solid)
 {
-    (void)state;
     const block deep = {-0.75, -0.4, -0.2, 0.2, 0.12};
     for (int k = 0; k < 2; k++) {
         double met = met_behind(&deep, k == 0 ? RLF_SHAPE_SPHERE : RLF_SHAPE_BOX, -0.5);
-        print_message("met %.3f m behind\n", met);
         assert_true(met > 0.11 && met < GUESS + 0.01);
     }
 }
 
 /* A bar is guessed as deep as its front is wide, not as wide as what is seen of it. */
-static void a_side_that_is_seen_makes_no_front_wider(void **state)
+TEST_CASE(a_side_that_is_seen_makes_no_front_wider)
 {
-    (void)state;
     const block bar = {-1.08, -0.99, -0.3, 0.3, 0.09};
     for (int k = 0; k < 2; k++) {
         double met = met_behind(&bar, k == 0 ? RLF_SHAPE_SPHERE : RLF_SHAPE_BOX, -1.035);
-        print_message("met %.3f m behind\n", met);
         assert_true(met > 0.07 && met < 0.11);
     }
 }
 
 /* All sides of what is straight ahead hide behind its front. */
-static void where_nothing_tells_the_guess_stays(void **state)
+TEST_CASE(where_nothing_tells_the_guess_stays)
 {
-    (void)state;
     const block ahead = {-0.12, 0.12, -0.12, 0.12, 0.0};
     double met = met_behind(&ahead, RLF_SHAPE_SPHERE, 0.0);
-    print_message("met %.3f m behind\n", met);
     assert_true(met > GUESS - 0.01 && met < GUESS + 0.01);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_flat_thing_is_no_deeper_than_its_outline_shows),
-        cmocka_unit_test(a_side_that_is_seen_belongs_to_the_solid),
-        cmocka_unit_test(a_side_that_is_seen_makes_no_front_wider),
-        cmocka_unit_test(where_nothing_tells_the_guess_stays),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,6 @@
 /* Overlap of two shapes against distances in closed form. */
+#include "draws.h"
+#include "hulls.h"
 #include "physics/shape/shape.h"
 #include "relief/query.h"
 #include "test.h"
@@ -7,26 +9,9 @@
 
 static uint64_t seed = 5;
 
-static double next(double low, double high)
-{
-    seed = seed * 6364136223846793005u + 1442695040888963407u;
-    return low + (high - low) * ((double)(seed >> 11) / 9007199254740992.0);
-}
-
-static rlf_vec3 next_vector(double size)
-{
-    rlf_vec3 v;
-    v.x = next(-size, size);
-    v.y = next(-size, size);
-    v.z = next(-size, size);
-    return v;
-}
-
 static const rlf_vec3 OCTAHEDRON[6] = {{0.2, 0, 0},  {-0.2, 0, 0}, {0, 0.2, 0},
                                        {0, -0.2, 0}, {0, 0, 0.2},  {0, 0, -0.2}};
-static const int32_t FACES[24] = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4,
-                                  2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
-static const rlf_hull HULL = {OCTAHEDRON, 6, FACES, 8};
+static const rlf_hull HULL = {OCTAHEDRON, 6, OCTAHEDRON_FACES, 8};
 
 static rlf_shape shape_of(int type)
 {
@@ -38,8 +23,8 @@ static rlf_shape shape_of(int type)
 
 static rlf_pose next_pose(double size)
 {
-    rlf_pose pose = {next_vector(size), {0, 0, 0, 1}};
-    pose.q = rlf_quat_from_rotation_vector(next_vector(3));
+    rlf_pose pose = {draw_vector(&seed, size), {0, 0, 0, 1}};
+    pose.q = rlf_quat_from_rotation_vector(draw_vector(&seed, 3));
     return pose;
 }
 
@@ -52,9 +37,8 @@ static bool overlap(const rlf_shape *a, const rlf_pose *Ta, const rlf_shape *b, 
 }
 
 /* A ball overlaps what is nearer than its radius to its centre. */
-static void balls_against_all(void **state)
+TEST_CASE(balls_against_all)
 {
-    (void)state;
     for (int type = 0; type < 4; type++) {
         rlf_shape shape = shape_of(type);
         rlf_vec3 points[PHYS_POINTS_MAX];
@@ -62,7 +46,7 @@ static void balls_against_all(void **state)
         assert_int_equal(phys_shape_init(&prepared, &shape, points), RLF_OK);
         int hits = 0;
         for (int i = 0; i < 2000; i++) {
-            rlf_shape ball = {.type = RLF_SHAPE_SPHERE, .radius = next(0.01, 0.3)};
+            rlf_shape ball = {.type = RLF_SHAPE_SPHERE, .radius = draw(&seed, 0.01, 0.3)};
             rlf_pose Ta = next_pose(0.3), Tb = next_pose(0.3);
             rlf_vec3 gradient;
             rlf_vec3 local = rlf_transform_inverse(&Ta, Tb.p);
@@ -77,9 +61,8 @@ static void balls_against_all(void **state)
 }
 
 /* Any two shapes side by side, axes aligned: they touch where their widths say. */
-static void widths_add_up(void **state)
+TEST_CASE(widths_add_up)
 {
-    (void)state;
     const double half[5] = {0.15, 0.1, 0.1, 0.1, 0.2};
     for (int a = 0; a < 5; a++) {
         for (int b = 0; b < 5; b++) {
@@ -95,13 +78,12 @@ static void widths_add_up(void **state)
 
 /* A plane between two shapes that none of their points crosses means a gap; moving one into the
  * other's middle means none. */
-static void any_two_in_any_pose(void **state)
+TEST_CASE(any_two_in_any_pose)
 {
-    (void)state;
     for (int i = 0; i < 2000; i++) {
         rlf_shape one = shape_of(i % 5), two = shape_of(i / 5 % 5);
         rlf_pose Ta = next_pose(0.2), Tb = next_pose(0.2);
-        rlf_vec3 way = rlf_normalize(next_vector(1));
+        rlf_vec3 way = rlf_normalize(draw_vector(&seed, 1));
         double apart = rlf_shape_radius(&one) + rlf_shape_radius(&two) + 0.001;
         Tb.p = rlf_mad(Ta.p, way, apart);
         assert_false(overlap(&one, &Ta, &two, &Tb));
@@ -110,9 +92,8 @@ static void any_two_in_any_pose(void **state)
     }
 }
 
-static void bad_shapes_are_invalid(void **state)
+TEST_CASE(bad_shapes_are_invalid)
 {
-    (void)state;
     rlf_shape box = shape_of(0), bad = shape_of(1);
     rlf_pose T = rlf_pose_identity(), nowhere = T;
     bad.radius = -1;
@@ -120,15 +101,4 @@ static void bad_shapes_are_invalid(void **state)
     assert_int_equal(rlf_shapes_overlap(&box, &T, &bad, &T), RLF_QUERY_INVALID);
     assert_int_equal(rlf_shapes_overlap(&box, &T, &box, &nowhere), RLF_QUERY_INVALID);
     assert_int_equal(rlf_shapes_overlap(&box, &T, &box, &T), RLF_QUERY_HIT);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(balls_against_all),
-        cmocka_unit_test(widths_add_up),
-        cmocka_unit_test(any_two_in_any_pose),
-        cmocka_unit_test(bad_shapes_are_invalid),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,7 +3,6 @@
 #include "relief/query.h"
 #include "small_world.h"
 #include "test.h"
-
 #include "grid_fixture.h"
 
 #include <math.h>
@@ -58,9 +57,8 @@ static rlf_ray_hit cast(rlf_vec3 origin, rlf_vec3 direction, double length)
     return rlf_world_cast_ray(world, &fixture->grid, origin, direction, length);
 }
 
-static void rays_hit_bodies(void **state)
+TEST_CASE(rays_hit_bodies)
 {
-    (void)state;
     for (uint32_t k = 0; k < 3; k++) {
         rlf_vec3 from = rlf_vec3_make(-0.3 * k, 0.01, 0);
         rlf_ray_hit hit = cast(from, rlf_vec3_make(0, 0, 3), 5);
@@ -80,9 +78,8 @@ static void rays_hit_bodies(void **state)
     assert_true(inside.normal.x == -1.0);
 }
 
-static void rays_hit_the_surface(void **state)
+TEST_CASE(rays_hit_the_surface)
 {
-    (void)state;
     rlf_ray_hit wall = cast(rlf_vec3_make(0.1, -0.3, 0.2), rlf_vec3_make(0, 0, 1), 6);
     assert_int_equal(wall.reason, RLF_QUERY_HIT);
     assert_int_equal(wall.other, RLF_CONTACT_BACKGROUND);
@@ -99,9 +96,8 @@ static void rays_hit_the_surface(void **state)
     assert_true(fabs(back.distance - 1.3) < 0.01 && back.normal.z > 0.99);
 }
 
-static void misses_say_why(void **state)
+TEST_CASE(misses_say_why)
 {
-    (void)state;
     rlf_vec3 from = {0.1, 0.2, 0.5};
     assert_int_equal(cast(from, rlf_vec3_make(0, 0, 1), 2).reason, RLF_QUERY_MISS);
     assert_int_equal(cast(from, rlf_vec3_make(-1, 0, 0), 2).reason, RLF_QUERY_OUTSIDE_VIEW);
@@ -124,9 +120,8 @@ static rlf_overlap near(rlf_vec3 centre, double radius, rlf_body_id *out, int32_
     return rlf_world_overlap_sphere(world, &fixture->grid, centre, radius, out, capacity);
 }
 
-static void spheres_overlap(void **state)
+TEST_CASE(spheres_overlap)
 {
-    (void)state;
     rlf_body_id found[2];
     rlf_overlap o = near(rlf_vec3_make(-0.15, 0, 1.5), 0.11, found, 2);
     assert_true(o.reason == RLF_QUERY_HIT && o.body_count == 2);
@@ -149,9 +144,8 @@ static void spheres_overlap(void **state)
 }
 
 /* A grid without a plane or function that is read is told, and nothing is asked of it. */
-static void an_incomplete_grid_is_refused(void **state)
+TEST_CASE(an_incomplete_grid_is_refused)
 {
-    (void)state;
     rlf_grid wrong[4];
     for (int k = 0; k < 4; k++) {
         wrong[k] = fixture->grid;
@@ -176,14 +170,4 @@ static void an_incomplete_grid_is_refused(void **state)
     assert_true(rlf_world_hash(world) == hash);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rays_hit_bodies),
-        cmocka_unit_test(rays_hit_the_surface),
-        cmocka_unit_test(misses_say_why),
-        cmocka_unit_test(spheres_overlap),
-        cmocka_unit_test(an_incomplete_grid_is_refused),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+TEST_GROUP(set_up, tear_down)

@@ -1,6 +1,5 @@
 /* Bodies across the picture's border lie on the plane that goes on as they lie within it. */
 #include "grid_room.h"
-#include "small_world.h"
 #include "test.h"
 
 #define LEVEL 0.99995 /* cosine of 0.01 */
@@ -59,15 +58,14 @@ static rlf_world *add_trays(const seam *g, double height, double slide)
     rlf_world_def world_def = small_world_def();
     world_def.body_capacity = TRAYS;
     world_def.gravity = rlf_scale(g->normal, -9.81);
-    rlf_world *world = NULL;
-    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
+    rlf_world *world = world_of(&world_def);
     for (int i = 0; i < TRAYS; i++) {
         rlf_body_def def = tray(g, i);
         def.position = rlf_mad(def.position, g->normal, height);
         def.position = rlf_mad(def.position, g->out, -0.2 * slide);
         def.velocity = rlf_scale(g->out, slide);
         def.angular_velocity = rlf_scale(g->normal, slide);
-        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+        add_body(world, &def);
     }
     return world;
 }
@@ -107,36 +105,20 @@ static void check_trays(const seam *g, rlf_world **world, int frames)
     rlf_world_destroy(world);
 }
 
-static void tray_that_falls_on_the_border_lies_flat(void **state)
+TEST_CASE(tray_that_falls_on_the_border_lies_flat)
 {
-    (void)state;
     for (int k = 0; k < SEAMS; k++) {
         rlf_world *world = add_trays(&seams[k], 0.06, 0.0);
         check_trays(&seams[k], &world, 36);
     }
 }
 
-static void tray_slides_across_the_border(void **state)
+TEST_CASE(tray_slides_across_the_border)
 {
-    (void)state;
     for (int k = 0; k < SEAMS; k++) {
         rlf_world *world = add_trays(&seams[k], 0.0, 1.0);
         check_trays(&seams[k], &world, 30);
     }
 }
 
-static int set_up(void **state)
-{
-    (void)state;
-    grid_room_create();
-    return 0;
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tray_that_falls_on_the_border_lies_flat),
-        cmocka_unit_test(tray_slides_across_the_border),
-    };
-    return cmocka_run_group_tests(tests, set_up, grid_room_destroy);
-}
+TEST_GROUP(grid_room_start, grid_room_destroy)

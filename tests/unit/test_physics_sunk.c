@@ -40,9 +40,8 @@ static double rise(double sunk, double z, rlf_vec3 turn)
     return way.p.y;
 }
 
-static void cube_with_its_middle_above_a_top_comes_out_above(void **state)
+TEST_CASE(cube_with_its_middle_above_a_top_comes_out_above)
 {
-    (void)state;
     for (int known = 0; known < 2; known++) {
         paint(known != 0);
         for (double sunk = 0.015; sunk < 0.046; sunk += 0.015) {
@@ -53,12 +52,4 @@ static void cube_with_its_middle_above_a_top_comes_out_above(void **state)
         }
         grid_room_destroy(NULL);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cube_with_its_middle_above_a_top_comes_out_above),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

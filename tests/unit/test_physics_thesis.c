@@ -1,7 +1,7 @@
 /* The thesis's rigid bodies, eq. 4.5 to 4.15, C.1 and Algorithms 1 to 3, against closed forms. */
 #include "physics/thesis/thesis.h"
+#include "small_world.h"
 #include "test.h"
-
 #include "grid_fixture.h"
 
 #include <math.h>
@@ -9,31 +9,32 @@
 static void near(double a, double b, double tolerance)
 {
     if (!(fabs(a - b) <= tolerance)) {
-        print_message("%.15g is not %.15g\n", a, b);
+        fail_msg("%.15g is not %.15g", a, b);
     }
-    assert_true(fabs(a - b) <= tolerance);
 }
 
-static rlf_world *make_world(double gravity)
-{
-    rlf_world_def def = rlf_world_def_default();
-    def.method = RLF_PHYSICS_THESIS;
-    def.gravity = rlf_vec3_make(0, gravity, 0);
-    def.body_capacity = 8;
-    def.contact_capacity = 4096;
-    rlf_world *world = NULL;
-    assert_int_equal(rlf_world_create(&def, &world), RLF_OK);
-    return world;
-}
+static rlf_world *world;
 
-static const rlf_body_state *body(const rlf_world *world, int i)
-{
-    return &rlf_world_get_snapshot(world)->bodies[i];
-}
-
-static void orientation_stays_orthogonal(void **state)
+static int start(void **state)
 {
     (void)state;
+    rlf_world_def def = small_world_def();
+    def.method = RLF_PHYSICS_THESIS;
+    def.gravity = rlf_vec3_make(0, 0, 0);
+    def.contact_capacity = 4096;
+    world = world_of(&def);
+    return 0;
+}
+
+static int stop(void **state)
+{
+    (void)state;
+    rlf_world_destroy(&world);
+    return 0;
+}
+
+TEST_CASE(orientation_stays_orthogonal)
+{
     rlf_mat3 R = rlf_mat3_diagonal(1, 1, 1);
     for (int i = 0; i < 1000; i++) {
         thesis_rotate(&R, rlf_vec3_make(3, -2, 5), 1.0 / 30);
@@ -50,18 +51,16 @@ static void orientation_stays_orthogonal(void **state)
 }
 
 /* One Euler step about z turns by atan(w dt). */
-static void orientation_step_is_eq_4_5(void **state)
+TEST_CASE(orientation_step_is_eq_4_5)
 {
-    (void)state;
     rlf_mat3 R = rlf_mat3_diagonal(1, 1, 1);
     thesis_rotate(&R, rlf_vec3_make(0, 0, 2), 0.1);
     near(atan2(R.m[1][0], R.m[0][0]), atan(0.2), 1e-15);
     near(R.m[2][2], 1, 1e-15);
 }
 
-static void cube_inertia_is_C_1(void **state)
+TEST_CASE(cube_inertia_is_C_1)
 {
-    (void)state;
     rlf_shape shape = {.type = RLF_SHAPE_BOX, .size = {1, 2, 3}};
     rlf_mat3 I = rlf_shape_inertia(&shape, 12);
     near(I.m[0][0], 4 + 9, 1e-12);
@@ -78,9 +77,8 @@ static void expect_diagonal(const rlf_mat3 *I, double x, double y, double z)
 }
 
 /* Solids of 3 kg whose axis is y, as textbooks have them. */
-static void round_inertia_is_closed_form(void **state)
+TEST_CASE(round_inertia_is_closed_form)
 {
-    (void)state;
     const double m = 3, r = 0.5, h = 2;
     rlf_shape sphere = {.type = RLF_SHAPE_SPHERE, .radius = r};
     rlf_mat3 I = rlf_shape_inertia(&sphere, m);
@@ -105,9 +103,8 @@ static void round_inertia_is_closed_form(void **state)
 }
 
 /* A hull in a box's shape has the box's tensor. */
-static void hull_inertia_is_exact(void **state)
+TEST_CASE(hull_inertia_is_exact)
 {
-    (void)state;
     rlf_vec3 v[8];
     for (int i = 0; i < 8; i++) {
         v[i] = rlf_vec3_make(i & 1 ? 0.5 : -0.5, i & 2 ? 1 : -1, i & 4 ? 1.5 : -1.5);
@@ -123,22 +120,18 @@ static void hull_inertia_is_exact(void **state)
     near(I.m[0][1], 0, 1e-12);
 }
 
-static void forces_and_torques(void **state)
+TEST_CASE(forces_and_torques)
 {
-    (void)state;
-    rlf_world *world = make_world(0);
     rlf_body_def def = rlf_body_def_default();
     def.mass = 2;
     def.shape.size = rlf_vec3_make(1, 1, 1);
-    rlf_body_id id;
-    assert_int_equal(rlf_world_add_body(world, &def, &id), RLF_OK);
+    rlf_body_id id = add_body(world, &def);
     rlf_vec3 at = rlf_add(def.position, rlf_vec3_make(0, 0.5, 0));
     assert_true(rlf_world_apply_force(world, id, rlf_vec3_make(4, 0, 0), at));
     rlf_world_advance(world, NULL, 0.1);
-    near(body(world, 0)->velocity.x, 0.2, 1e-15);                        /* 4.8 */
-    near(body(world, 0)->T_world_body.p.x, 0.02, 1e-15);                 /* Algorithm 1 */
-    near(body(world, 0)->angular_velocity.z, -0.5 * 4 * 0.1 * 3, 1e-14); /* 4.9, I = 1/3 */
-    rlf_world_destroy(&world);
+    near(body_at(world, 0)->velocity.x, 0.2, 1e-15);                        /* 4.8 */
+    near(body_at(world, 0)->T_world_body.p.x, 0.02, 1e-15);                 /* Algorithm 1 */
+    near(body_at(world, 0)->angular_velocity.z, -0.5 * 4 * 0.1 * 3, 1e-14); /* 4.9, I = 1/3 */
 }
 
 static phys_body bare_body(double mass, rlf_vec3 x)
@@ -153,9 +146,8 @@ static phys_body bare_body(double mass, rlf_vec3 x)
 
 /* m = 6, I = 1; r = (0.5, 0, -1): t1 = 1/6, t3 = 0.25; v_rel = -3; e = 0.5:
  * j = 1.5 * 3 / (1/6 + 1/4) = 10.8. */
-static void impulse_formula(void **state)
+TEST_CASE(impulse_formula)
 {
-    (void)state;
     phys_body a = bare_body(6, rlf_vec3_make(0, 0, 1));
     a.v = rlf_vec3_make(0.7, 0, -3);
     rlf_vec3 n = {0, 0, 1};
@@ -170,9 +162,8 @@ static void impulse_formula(void **state)
 }
 
 /* Both masses: m_a = 2, m_b = 6, head on, e = 1: j = 2 * 4 / (1/2 + 1/6) = 12. */
-static void impulse_between_bodies(void **state)
+TEST_CASE(impulse_between_bodies)
 {
-    (void)state;
     phys_body a = bare_body(2, rlf_vec3_make(1, 0, 0)), b = bare_body(6, rlf_vec3_make(0, 0, 0));
     a.v = rlf_vec3_make(-4, 0, 0);
     near(thesis_impulse(&a, &b, rlf_vec3_make(0.5, 0, 0), rlf_vec3_make(1, 0, 0), 1), 12, 1e-12);
@@ -180,9 +171,8 @@ static void impulse_between_bodies(void **state)
     near(b.v.x, -2, 1e-12);
 }
 
-static void broad_phase_uses_the_radius(void **state)
+TEST_CASE(broad_phase_uses_the_radius)
 {
-    (void)state;
     rlf_aabb box = {{-1, -1, 2}, {1, 1, 3}};
     assert_true(thesis_broad_phase(&box, rlf_vec3_make(0, 0, 2.5), 0.1));
     assert_true(thesis_broad_phase(&box, rlf_vec3_make(0, 0, 1.95), 0.1));
@@ -190,54 +180,49 @@ static void broad_phase_uses_the_radius(void **state)
     assert_false(thesis_broad_phase(&box, rlf_vec3_make(1.08, 1.08, 2.5), 0.1));
 }
 
-static void bodies_conserve_momentum(void **state)
+TEST_CASE(bodies_conserve_momentum)
 {
-    (void)state;
-    rlf_world *world = make_world(0);
     rlf_body_def def = rlf_body_def_default();
     def.mass = 0.3;
     def.position = rlf_vec3_make(-0.2, 0.02, 1.01);
     def.velocity = rlf_vec3_make(1, 0, 0);
     def.angular_velocity = rlf_vec3_make(1, 2, 3);
-    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    add_body(world, &def);
     def.mass = 0.1;
     def.position = rlf_vec3_make(0, 0, 1);
     def.velocity = rlf_vec3_make(0, 0, 0);
     def.angular_velocity = rlf_vec3_make(0, 0, 0);
-    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    add_body(world, &def);
     int contacts = 0;
     for (int k = 0; k < 30; k++) {
         rlf_world_advance(world, NULL, 1.0 / 60);
         contacts += rlf_world_get_snapshot(world)->contact_count;
     }
     assert_true(contacts > 0);
-    rlf_vec3 p =
-        rlf_add(rlf_scale(body(world, 0)->velocity, 0.3), rlf_scale(body(world, 1)->velocity, 0.1));
+    rlf_vec3 p = rlf_add(rlf_scale(body_at(world, 0)->velocity, 0.3),
+                         rlf_scale(body_at(world, 1)->velocity, 0.1));
     near(p.x, 0.3, 1e-12);
     near(p.y, 0, 1e-12);
     near(p.z, 0, 1e-12);
-    assert_true(body(world, 1)->velocity.x > 0.2);
-    rlf_world_destroy(&world);
+    assert_true(body_at(world, 1)->velocity.x > 0.2);
 }
 
 /* A plane through the whole chain: grid, region box, points, impulse. In a mounted camera's frame,
  * to see that the boxes are tested in the grid's frame. */
-static void bounces_off_a_plane(void **state)
+TEST_CASE(bounces_off_a_plane)
 {
-    (void)state;
     grid_fixture *f = grid_fixture_create();
     grid_plane wall = grid_wall(2);
     grid_fixture_set_room(f, &wall, 1);
     f->grid.T_world_grid.p = rlf_vec3_make(0.3, -0.2, 0.5);
     f->grid.T_world_grid.q = rlf_quat_from_axis_angle(rlf_vec3_make(0, 1, 0), 0.5);
     rlf_vec3 forward = rlf_rotate(f->grid.T_world_grid.q, rlf_vec3_make(0, 0, 1));
-    rlf_world *world = make_world(0);
     rlf_body_def def = rlf_body_def_default();
     def.restitution = 0.8;
     def.position = rlf_transform(&f->grid.T_world_grid, rlf_vec3_make(0, 0, 1.2));
     def.orientation = f->grid.T_world_grid.q;
     def.velocity = rlf_scale(forward, 2);
-    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    add_body(world, &def);
     double deepest = 0, approach = 0;
     for (int k = 0; k < 40; k++) {
         rlf_world_advance(world, &f->grid, 1.0 / 60);
@@ -253,25 +238,8 @@ static void bounces_off_a_plane(void **state)
     }
     near(approach, 2, 0.05);
     assert_true(deepest < 2.0 / 60 + 0.01); /* no more than one frame's way */
-    assert_true(rlf_dot(forward, body(world, 0)->velocity) < -0.5);
-    rlf_world_destroy(&world);
+    assert_true(rlf_dot(forward, body_at(world, 0)->velocity) < -0.5);
     grid_fixture_destroy(&f);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(orientation_stays_orthogonal),
-        cmocka_unit_test(orientation_step_is_eq_4_5),
-        cmocka_unit_test(cube_inertia_is_C_1),
-        cmocka_unit_test(round_inertia_is_closed_form),
-        cmocka_unit_test(hull_inertia_is_exact),
-        cmocka_unit_test(forces_and_torques),
-        cmocka_unit_test(impulse_formula),
-        cmocka_unit_test(impulse_between_bodies),
-        cmocka_unit_test(broad_phase_uses_the_radius),
-        cmocka_unit_test(bodies_conserve_momentum),
-        cmocka_unit_test(bounces_off_a_plane),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(start, stop)

@@ -4,7 +4,6 @@
 #include "physics/world_state.h"
 #include "small_world.h"
 #include "test.h"
-
 #include "grid_shared.h"
 #include "heavy.h"
 
@@ -45,9 +44,8 @@ static flight throw_it(const rlf_body_def *def, double seconds)
     world_def.gravity = rlf_vec3_make(0, 0, 0);
     world_def.body_capacity = 1;
     world_def.contact_capacity = 64;
-    rlf_world *world = NULL;
-    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
-    assert_int_equal(rlf_world_add_body(world, def, NULL), RLF_OK);
+    rlf_world *world = world_of(&world_def);
+    add_body(world, def);
     flight out = {.has_touched = false};
     for (int i = 0; i < (int)(30 * seconds) + 1; i++) {
         fixture->grid.time_ns++;
@@ -73,9 +71,8 @@ static bool is_turned(const flight *f, const rlf_body_def *def)
            fabs(f->velocity.y) < 0.1 * speed && fabs(f->velocity.z) < 0.1 * speed;
 }
 
-static void thin_things_turn_what_hits_their_side(void **state)
+TEST_CASE(thin_things_turn_what_hits_their_side)
 {
-    (void)state;
     for (int i = 0; i < heavy(200, 50); i++) {
         double half = 0.003 + 0.0005 * (i % 20), size = 0.02 + 0.02 * (i / 20 % 8);
         set_pole(half, 0.2);
@@ -85,19 +82,17 @@ static void thin_things_turn_what_hits_their_side(void **state)
         def.velocity = rlf_vec3_make(-speed, 0, 0);
         flight f = throw_it(&def, 0.6 / speed);
         if (!is_turned(&f, &def)) {
-            print_message("half width %.1f mm, %s of %.2f m at %.2f m/s: %s, then %.2f %.2f %.2f\n",
-                          1e3 * half, i % 2 ? "box" : "ball", size, speed,
-                          f.has_touched ? "touched" : "nothing touched", f.velocity.x, f.velocity.y,
-                          f.velocity.z);
+            fail_msg("half width %.1f mm, %s of %.2f m at %.2f m/s: %s, then %.2f %.2f %.2f",
+                     1e3 * half, i % 2 ? "box" : "ball", size, speed,
+                     f.has_touched ? "touched" : "nothing touched", f.velocity.x, f.velocity.y,
+                     f.velocity.z);
         }
-        assert_true(is_turned(&f, &def));
     }
 }
 
 /* A spinning capsule pokes through a thin slab for a moment: it is not torn both ways. */
-static void thin_things_give_no_energy(void **state)
+TEST_CASE(thin_things_give_no_energy)
 {
-    (void)state;
     set_pole(0.012, 0.2);
     for (int i = 0; i < heavy(200, 50); i++) {
         rlf_body_def def = body_of((rlf_shape_type)(i % 4), 0.1 + 0.003 * (i % 21));
@@ -116,9 +111,8 @@ static void thin_things_give_no_energy(void **state)
 
 /* Small balls at the back of a board, at angles of up to 13 deg to the view: the pixels on whose
  * rays the back is hit are others than those under the ball. */
-static void backs_turn_small_balls(void **state)
+TEST_CASE(backs_turn_small_balls)
 {
-    (void)state;
     grid_plane wall = grid_wall(4);
     grid_fixture_set_room(fixture, &wall, 1);
     grid_fixture_set_slab(fixture, grid_wall(2), rlf_vec3_make(0, 0, 2), rlf_vec3_make(0.5, 0.5, 0),
@@ -136,19 +130,17 @@ static void backs_turn_small_balls(void **state)
 
 /* What no contact stops, the guard does: as a blow at the centre, with restitution and friction,
  * that is told as any other contact is. */
-static void the_last_defence_is_a_contact(void **state)
+TEST_CASE(the_last_defence_is_a_contact)
 {
-    (void)state;
     set_pole(0.2, 0.2);
     rlf_world_def world_def = small_world_def();
-    rlf_world *world = NULL;
-    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
+    rlf_world *world = world_of(&world_def);
     rlf_body_def def = body_of(RLF_SHAPE_BOX, 0.1);
     def.friction = 0.25;
     def.mass = 2.0;
     def.position = rlf_vec3_make(0.01, 0.02, 1.99);
     def.velocity = rlf_vec3_make(3, 0, 4);
-    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    add_body(world, &def);
     phys_body *body = &world->bodies[0];
     grid_query query = {.grid = &fixture->grid, .T_grid_world = rlf_pose_identity(), .step = 0.01};
     body->x = rlf_mad(def.position, def.velocity, query.step);
@@ -168,13 +160,4 @@ static void the_last_defence_is_a_contact(void **state)
     rlf_world_destroy(&world);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(thin_things_turn_what_hits_their_side, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(thin_things_give_no_energy, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(backs_turn_small_balls, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(the_last_defence_is_a_contact, set_up, tear_down),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(set_up, tear_down)

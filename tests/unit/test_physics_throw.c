@@ -1,9 +1,8 @@
-/* Random throws into a concave room: nothing tunnels, nothing is NaN; and what it costs. */
-#include "relief/world.h"
+/* Random throws into a concave room: nothing tunnels, nothing is NaN. */
+#include "draws.h"
 #include "small_world.h"
 #include "test.h"
-
-#include "grid_fixture.h"
+#include "grid_shared.h"
 #include "heavy.h"
 
 #include <math.h>
@@ -16,27 +15,6 @@ static const grid_plane ROOM[5] = {{{0, -1, 0}, -1.0},
                                    {{1, 0, 0}, -1.6},
                                    {{-1, 0, 0}, -1.6},
                                    {{0, -0.6, -0.8}, -3.6}};
-
-typedef struct random_state {
-    uint64_t x;
-} random_state;
-
-/* Knuth's 64-bit linear congruential generator; [0, 1). */
-static double next(random_state *r)
-{
-    r->x = r->x * 6364136223846793005u + 1442695040888963407u;
-    return (double)(r->x >> 11) / 9007199254740992.0;
-}
-
-/* Three numbers, drawn in order: a compiler may evaluate a call's arguments in any. */
-static rlf_vec3 next_in_box(random_state *r, rlf_vec3 low, rlf_vec3 high)
-{
-    rlf_vec3 v;
-    v.x = low.x + (high.x - low.x) * next(r);
-    v.y = low.y + (high.y - low.y) * next(r);
-    v.z = low.z + (high.z - low.z) * next(r);
-    return v;
-}
 
 /* How far p is out of the room, metres; <= 0 inside. */
 static double outside(rlf_vec3 p)
@@ -55,44 +33,41 @@ static bool is_in_view(rlf_vec3 p)
            v < GRID_H - 6;
 }
 
-static rlf_body_def random_throw(random_state *r)
+static rlf_body_def random_throw(uint64_t *r)
 {
     rlf_body_def def = rlf_body_def_default();
-    def.shape.type = (rlf_shape_type)(int)(next(r) * 4);
-    double size = 0.02 + 0.13 * next(r);
-    def.shape.size = next_in_box(r, rlf_vec3_make(size, 0.5 * size, 0.5 * size),
+    def.shape.type = (rlf_shape_type)(int)(draw(r, 0, 1) * 4);
+    double size = 0.02 + 0.13 * draw(r, 0, 1);
+    def.shape.size = draw_in_box(r, rlf_vec3_make(size, 0.5 * size, 0.5 * size),
                                  rlf_vec3_make(size, 1.5 * size, 1.5 * size));
     def.shape.radius = 0.5 * size;
-    def.shape.height = size * (0.5 + next(r));
-    def.mass = 0.05 + next(r);
-    def.restitution = next(r);
-    def.friction = next(r);
-    def.position = next_in_box(r, rlf_vec3_make(-0.6, -0.5, 1.3), rlf_vec3_make(0.6, 0.3, 2.3));
-    rlf_vec3 turn = next_in_box(r, rlf_vec3_make(-3, -3, -3), rlf_vec3_make(3, 3, 3));
+    def.shape.height = size * (0.5 + draw(r, 0, 1));
+    def.mass = 0.05 + draw(r, 0, 1);
+    def.restitution = draw(r, 0, 1);
+    def.friction = draw(r, 0, 1);
+    def.position = draw_in_box(r, rlf_vec3_make(-0.6, -0.5, 1.3), rlf_vec3_make(0.6, 0.3, 2.3));
+    rlf_vec3 turn = draw_in_box(r, rlf_vec3_make(-3, -3, -3), rlf_vec3_make(3, 3, 3));
     def.orientation = rlf_quat_from_rotation_vector(turn);
-    rlf_vec3 target = next_in_box(r, rlf_vec3_make(-1.2, -0.6, 3.5), rlf_vec3_make(1.2, 1, 4.5));
-    double speed = 0.5 + 9.5 * next(r);
+    rlf_vec3 target = draw_in_box(r, rlf_vec3_make(-1.2, -0.6, 3.5), rlf_vec3_make(1.2, 1, 4.5));
+    double speed = 0.5 + 9.5 * draw(r, 0, 1);
     def.velocity = rlf_scale(rlf_normalize(rlf_sub(target, def.position)), speed);
-    def.angular_velocity = next_in_box(r, rlf_vec3_make(-10, -10, -10), rlf_vec3_make(10, 10, 10));
+    def.angular_velocity = draw_in_box(r, rlf_vec3_make(-10, -10, -10), rlf_vec3_make(10, 10, 10));
     return def;
 }
 
-static void nothing_tunnels(void **state)
+TEST_CASE(nothing_tunnels)
 {
-    (void)state;
-    grid_fixture *fixture = grid_fixture_create();
     grid_fixture_set_room(fixture, ROOM, 5);
-    random_state r = {7};
+    uint64_t r = 7;
     int tunnelled = 0, bounced = 0, left = 0;
     double worst = 0;
     for (int i = 0; i < THROWS; i++) {
         rlf_world_def world_def = small_world_def();
         world_def.body_capacity = 1;
         world_def.contact_capacity = 64;
-        rlf_world *world = NULL;
-        assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
+        rlf_world *world = world_of(&world_def);
         rlf_body_def def = random_throw(&r);
-        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+        add_body(world, &def);
         bool is_lost = false, has_touched = false;
         for (int k = 0; k < 60 && !is_lost; k++) {
             fixture->grid.time_ns++;
@@ -126,18 +101,16 @@ static void nothing_tunnels(void **state)
     assert_int_equal(tunnelled, 0);
     assert_true(bounced > THROWS * 9 / 10);
     assert_true(left < THROWS / 2);
-    grid_fixture_destroy(&fixture);
 }
 
 /* Throws at the unseen back of a slab, or at the side of a book seen edge-on. */
 static void throws_at(bool is_edge)
 {
-    grid_fixture *fixture = grid_fixture_create();
     grid_fixture_set_room(fixture, ROOM, 5);
     grid_fixture_set_slab(fixture, grid_wall(2), rlf_vec3_make(0, 0, 2),
                           is_edge ? rlf_vec3_make(0.012, 0.2, 0) : rlf_vec3_make(0.25, 0.5, 0), 0.2,
                           rlf_vec3_make(0, 0, 0));
-    random_state r = {9};
+    uint64_t r = 9;
     const int count = heavy(100, 25);
     int bounced = 0, passed = 0;
     for (int i = 0; i < count; i++) {
@@ -145,20 +118,19 @@ static void throws_at(bool is_edge)
         world_def.body_capacity = 1;
         world_def.contact_capacity = 64;
         world_def.gravity = rlf_vec3_make(0, 0, 0);
-        rlf_world *world = NULL;
-        assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
+        rlf_world *world = world_of(&world_def);
         rlf_body_def def = random_throw(&r);
-        double speed = 0.5 + 4.5 * next(&r);
+        double speed = 0.5 + 4.5 * draw(&r, 0, 1);
         if (is_edge) {
-            double y = 0.2 * next(&r) - 0.1;
-            def.position = rlf_vec3_make(0.5, y, 2.05 + 0.1 * next(&r));
+            double y = 0.2 * draw(&r, 0, 1) - 0.1;
+            def.position = rlf_vec3_make(0.5, y, 2.05 + 0.1 * draw(&r, 0, 1));
             def.velocity = rlf_vec3_make(-speed, 0, 0);
         } else {
-            double x = 0.3 * next(&r) - 0.15;
-            def.position = rlf_vec3_make(x, 0.6 * next(&r) - 0.3, 3);
+            double x = 0.3 * draw(&r, 0, 1) - 0.15;
+            def.position = rlf_vec3_make(x, 0.6 * draw(&r, 0, 1) - 0.3, 3);
             def.velocity = rlf_vec3_make(0, 0, -speed);
         }
-        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+        add_body(world, &def);
         bool has_touched = false, is_through = false;
         for (int k = 0; k < (int)(36 / speed) + 2; k++) {
             fixture->grid.time_ns++;
@@ -178,12 +150,10 @@ static void throws_at(bool is_edge)
                   passed);
     assert_int_equal(passed, 0);
     assert_true(bounced >= count - 1);
-    grid_fixture_destroy(&fixture);
 }
 
-static void backs_and_edges_are_solid(void **state)
+TEST_CASE(backs_and_edges_are_solid)
 {
-    (void)state;
     throws_at(false);
     throws_at(true);
 }
@@ -202,64 +172,30 @@ static void count_losses(const rlf_snapshot *s, bool *was_in_view, int *left, in
     }
 }
 
-/* Milliseconds per advance of 1/30 s for `count` cubes that fall on the room's floor. */
-static double cost(grid_fixture *fixture, int count, double seconds)
+TEST_CASE(a_crowd_stays_in_the_room)
 {
+    enum { CUBES = 100, FRAMES = 120 };
+    grid_fixture_set_room(fixture, ROOM, 5);
     rlf_world_def world_def = rlf_world_def_default();
-    rlf_world *world = NULL;
-    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
-    random_state r = {3};
-    for (int i = 0; i < count; i++) {
+    rlf_world *world = world_of(&world_def);
+    uint64_t r = 3;
+    for (int i = 0; i < CUBES; i++) {
         rlf_body_def def = rlf_body_def_default();
-        def.position = next_in_box(&r, rlf_vec3_make(-0.8, 0.8, 2.2), rlf_vec3_make(0.8, 0.8, 3.0));
+        def.position = draw_in_box(&r, rlf_vec3_make(-0.8, 0.8, 2.2), rlf_vec3_make(0.8, 0.8, 3.0));
         def.position.y -= 0.15 * (i / 20);
-        rlf_vec3 turn = next_in_box(&r, rlf_vec3_make(0, 0, 0), rlf_vec3_make(2, 2, 2));
+        rlf_vec3 turn = draw_in_box(&r, rlf_vec3_make(0, 0, 0), rlf_vec3_make(2, 2, 2));
         def.orientation = rlf_quat_from_rotation_vector(turn);
-        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+        add_body(world, &def);
     }
-    int frames = (int)(seconds * 30);
-    int64_t total = 0, worst = 0;
+    bool was_in_view[CUBES] = {false};
     int left = 0, lost = 0;
-    bool was_in_view[100] = {false};
-    for (int k = 0; k < frames; k++) {
-        fixture->grid.time_ns++;
-        int64_t start = rlf_clock_ns();
-        rlf_world_advance(world, &fixture->grid, 1.0 / 30);
-        int64_t spent = rlf_clock_ns() - start;
-        total += spent;
-        worst = spent > worst ? spent : worst;
+    for (int k = 0; k < FRAMES; k++) {
+        advance_frames(world, &fixture->grid, 1, 1.0 / 30);
         count_losses(rlf_world_get_snapshot(world), was_in_view, &left, &lost);
     }
-    const rlf_snapshot *s = rlf_world_get_snapshot(world);
-    int asleep = 0;
-    for (int i = 0; i < s->body_count; i++) {
-        asleep += s->bodies[i].is_asleep;
-    }
-    double mean = 1e-6 * (double)total / frames;
-    print_message("%d cubes, %.0f s: %.3f ms per advance of 1/30 s (worst %.3f), %d asleep, "
-                  "%d left the view, %d lost\n",
-                  count, seconds, mean, 1e-6 * (double)worst, asleep, left, lost);
+    print_message("%d cubes: %d left the view, %d lost\n", CUBES, left, lost);
     assert_int_equal(lost, 0);
     rlf_world_destroy(&world);
-    return mean;
 }
 
-static void cost_of_a_crowd(void **state)
-{
-    (void)state;
-    grid_fixture *fixture = grid_fixture_create();
-    grid_fixture_set_room(fixture, ROOM, 5);
-    cost(fixture, 2, 1);
-    cost(fixture, 100, 4);
-    grid_fixture_destroy(&fixture);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_tunnels),
-        cmocka_unit_test(backs_and_edges_are_solid),
-        cmocka_unit_test(cost_of_a_crowd),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(set_up, tear_down)

@@ -1,4 +1,5 @@
 /* What tiles and pixels tell of distances, against every pixel's solid. */
+#include "draws.h"
 #include "grid_fixture.h"
 #include "physics/grid/cast.h"
 #include "physics/grid/contact/search.h"
@@ -12,12 +13,6 @@
 
 static uint64_t seed = 11;
 
-static double next(double low, double high)
-{
-    seed = seed * 6364136223846793005u + 1442695040888963407u;
-    return low + (high - low) * ((double)(seed >> 11) / 9007199254740992.0);
-}
-
 /* Two slanting planes with bumps, and before them a block whose outline crosses tiles. */
 static grid_fixture *make_scene(void)
 {
@@ -30,8 +25,8 @@ static grid_fixture *make_scene(void)
         rlf_vec3 n = is_block ? rlf_vec3_make(0, 0, -1) : rlf_vec3_make(0.1, y < 240 ? 0 : -1, -1);
         rlf_vec3 ray = {(x - GRID_CX) / GRID_F, (y - GRID_CY) / GRID_F, 1};
         n = rlf_normalize(n);
-        depth[i] = (float)((is_block ? -1.6 : -2.0) / rlf_dot(n, ray) + next(-0.01, 0.01));
-        depth[i] = next(0, 1) < 0.02 ? 0.0f : depth[i];
+        depth[i] = (float)((is_block ? -1.6 : -2.0) / rlf_dot(n, ray) + draw(&seed, -0.01, 0.01));
+        depth[i] = draw(&seed, 0, 1) < 0.02 ? 0.0f : depth[i];
         normal[0][i] = (float)n.x;
         normal[1][i] = (float)n.y;
         normal[2][i] = (float)n.z;
@@ -57,13 +52,13 @@ static double distance_to(const grid_fixture *f, int32_t x, int32_t y, rlf_vec3 
 
 static rlf_vec3 next_place(void)
 {
-    double z = next(1.0, 3.0);
-    return rlf_vec3_make(next(-0.6, 0.6) * z, next(-0.5, 0.5) * z, z);
+    double z = draw(&seed, 1.0, 3.0);
+    return rlf_vec3_make(draw(&seed, -0.6, 0.6) * z, draw(&seed, -0.5, 0.5) * z, z);
 }
 
 /* A tile is never farther than it says, a block within reach is never left out, and what tiles say
  * is true to the size of a block with its solid. */
-static void tiles_tell_no_longer_distances(void **state)
+TEST_CASE(tiles_tell_no_longer_distances)
 {
     grid_fixture *f = *state;
     const int32_t all[4] = {0, 0, GRID_W, GRID_H};
@@ -73,10 +68,10 @@ static void tiles_tell_no_longer_distances(void **state)
     assert_int_equal(tiles.size, SIDE);
     assert_true(grid_tiles_make(&tiles, &f->grid, all));
     for (int32_t k = 0; k < 400; k++) {
-        int32_t column = (int32_t)next(0, 32), row = (int32_t)next(0, 26);
+        int32_t column = (int32_t)draw(&seed, 0, 32), row = (int32_t)draw(&seed, 0, 26);
         const grid_tile *tile = &tiles.tiles[row * tiles.columns + column];
         rlf_vec3 p = next_place();
-        double reach = next(0.0, 2.0), least = 1e9;
+        double reach = draw(&seed, 0.0, 2.0), least = 1e9;
         uint32_t near = grid_tile_blocks_near(tile, p, reach);
         for (int32_t i = 0; i < SIDE * SIDE; i++) {
             int32_t x = i % SIDE, y = i / SIDE, block = y / 4 * TILE_BLOCKS + x / 4;
@@ -93,16 +88,16 @@ static void tiles_tell_no_longer_distances(void **state)
 /* A cube of 10 cm that flies and spins somewhere near the scene; its footprint is scanned. */
 static void throw_cube(grid_job *job, const grid_query *query, phys_body *body)
 {
-    const rlf_vec3 turn = {next(-3, 3), next(-3, 3), next(-3, 3)};
+    const rlf_vec3 turn = {draw(&seed, -3, 3), draw(&seed, -3, 3), draw(&seed, -3, 3)};
     memset(job, 0, sizeof(*job));
     job->query = query;
     job->sheet = query->background->sheet;
     job->tiles = query->background;
     job->body = body;
     job->motion.centre = next_place();
-    job->motion.centre.z = next(1.4, 2.3);
-    job->motion.v = rlf_vec3_make(next(-2, 2), next(-2, 2), next(-2, 2));
-    job->motion.w = rlf_vec3_make(next(-4, 4), next(-4, 4), next(-4, 4));
+    job->motion.centre.z = draw(&seed, 1.4, 2.3);
+    job->motion.v = rlf_vec3_make(draw(&seed, -2, 2), draw(&seed, -2, 2), draw(&seed, -2, 2));
+    job->motion.w = rlf_vec3_make(draw(&seed, -4, 4), draw(&seed, -4, 4), draw(&seed, -4, 4));
     job->motion.speed = rlf_length(job->motion.v);
     job->motion.spin = rlf_length(job->motion.w);
     job->motion.R_grid_body = rlf_quat_to_mat3(rlf_quat_from_rotation_vector(turn));
@@ -115,7 +110,7 @@ static void throw_cube(grid_job *job, const grid_query *query, phys_body *body)
 }
 
 /* Whatever point of a cube touches, it is one of those that were told to be near. */
-static void what_touches_is_told_to_be_near(void **state)
+TEST_CASE(what_touches_is_told_to_be_near)
 {
     grid_fixture *f = *state;
     const int32_t all[4] = {0, 0, GRID_W, GRID_H};
@@ -146,7 +141,6 @@ static void what_touches_is_told_to_be_near(void **state)
             asked++;
         }
     }
-    print_message("%d points: %d may touch, %d do\n", asked, told, touches);
     assert_true(touches > 3000 && told < asked * 3 / 4);
     phys_shape_finish(&body.shape);
     free(tiles.marks);
@@ -154,14 +148,14 @@ static void what_touches_is_told_to_be_near(void **state)
 }
 
 /* What is asked for its state alone has the same, inside, before and behind, at any depth. */
-static void a_state_alone_is_the_same(void **state)
+TEST_CASE(a_state_alone_is_the_same)
 {
     grid_fixture *f = *state;
     int32_t counts[FIELD_BEHIND + 1] = {0};
     for (int32_t k = 0; k < 20000; k++) {
         field_cell whole, cheap;
-        int32_t i = (int32_t)next(0, GRID_W * GRID_H);
-        double z = (double)f->grid.background.depth[i] + next(-0.02, 0.3);
+        int32_t i = (int32_t)draw(&seed, 0, GRID_W * GRID_H);
+        double z = (double)f->grid.background.depth[i] + draw(&seed, -0.02, 0.3);
         rlf_vec3 q = {z * (double)f->grid.ray_x[i], z * (double)f->grid.ray_y[i], z};
         field_state told = grid_field_at(&f->grid, &f->grid.background, q, &whole);
         assert_int_equal(grid_field_state(&f->grid, &f->grid.background, q, &cheap), told);
@@ -184,12 +178,4 @@ static int close_scene(void **state)
     return 0;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tiles_tell_no_longer_distances),
-        cmocka_unit_test(a_state_alone_is_the_same),
-        cmocka_unit_test(what_touches_is_told_to_be_near),
-    };
-    return cmocka_run_group_tests(tests, open_scene, close_scene);
-}
+TEST_GROUP(open_scene, close_scene)

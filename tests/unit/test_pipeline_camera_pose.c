@@ -2,6 +2,9 @@
  * the room. The room: walls and three boxes with patches of grey. */
 
 #include "pipeline/moving/moving.h"
+#include "analytic.h"
+#include "created.h"
+#include "pinhole.h"
 #include "test.h"
 
 #include <math.h>
@@ -12,14 +15,10 @@ enum { WIDTH = 256, HEIGHT = 212, PIXELS = WIDTH * HEIGHT, LEARNED = 16 };
 #define FRAME_NS 33333333
 #define FOUND_M 0.1 /* the map of so few frames is itself some centimetres off */
 
-typedef struct box {
-    rlf_vec3 low, high;
-} box;
-
-static const box room = {{-1.4, -1.0, -1.0}, {1.5, 0.9, 2.6}};
-static const box boxes[] = {{{-1.1, 0.2, 1.6}, {-0.4, 0.9, 2.2}},
-                            {{0.2, 0.4, 1.2}, {0.8, 0.9, 1.6}},
-                            {{0.8, -0.5, 1.9}, {1.4, 0.9, 2.5}}};
+static const rlf_aabb room = {{-1.4, -1.0, -1.0}, {1.5, 0.9, 2.6}};
+static const rlf_aabb boxes[] = {{{-1.1, 0.2, 1.6}, {-0.4, 0.9, 2.2}},
+                                 {{0.2, 0.4, 1.2}, {0.8, 0.9, 1.6}},
+                                 {{0.8, -0.5, 1.9}, {1.4, 0.9, 2.5}}};
 
 typedef struct fixture {
     rlf_rig rig;
@@ -39,19 +38,6 @@ static double axis(rlf_vec3 v, int k)
     return k == 0 ? v.x : k == 1 ? v.y : v.z;
 }
 
-/* Where a ray enters a box, or leaves it (`is_out`); 0 = it does not. */
-static double hit(const box *b, rlf_vec3 from, rlf_vec3 way, bool is_out)
-{
-    double in = -1e9, out = 1e9;
-    for (int k = 0; k < 3; k++) {
-        const double a = (axis(b->low, k) - axis(from, k)) / axis(way, k);
-        const double c = (axis(b->high, k) - axis(from, k)) / axis(way, k);
-        in = rlf_max(in, rlf_min(a, c));
-        out = rlf_min(out, rlf_max(a, c));
-    }
-    return is_out ? out : (in < out && in > 0.0 ? in : 0.0);
-}
-
 static uint8_t patch(rlf_vec3 p)
 {
     const int32_t x = (int32_t)floor(p.x / 0.3), y = (int32_t)floor(p.y / 0.3),
@@ -62,13 +48,13 @@ static uint8_t patch(rlf_vec3 p)
 }
 
 /* The normal of a box at a point on it, towards the camera. */
-static rlf_vec3 normal_at(const box *b, rlf_vec3 p, rlf_vec3 way)
+static rlf_vec3 normal_at(const rlf_aabb *b, rlf_vec3 p, rlf_vec3 way)
 {
     double least = 1e9;
     rlf_vec3 n = {0, 0, 0};
     for (int k = 0; k < 3; k++) {
         const double d =
-            rlf_min(fabs(axis(p, k) - axis(b->low, k)), fabs(axis(p, k) - axis(b->high, k)));
+            rlf_min(fabs(axis(p, k) - axis(b->min, k)), fabs(axis(p, k) - axis(b->max, k)));
         if (d < least) {
             const double sign = axis(way, k) > 0.0 ? -1.0 : 1.0;
             least = d;
@@ -82,7 +68,7 @@ static rlf_vec3 normal_at(const box *b, rlf_vec3 p, rlf_vec3 way)
 static void add_walker(int32_t i, rlf_vec3 from, rlf_vec3 way, rlf_vec3 seen)
 {
     const rlf_vec3 p = rlf_mad(from, way, (f.walker - from.z) / way.z);
-    if (f.walker > 0.0 && fabs(seen.x) < 0.4 && seen.z > room.high.z - 0.01) {
+    if (f.walker > 0.0 && fabs(seen.x) < 0.4 && seen.z > room.max.z - 0.01) {
         f.depth[i] = fabs(p.x) < 0.2 && p.y > -0.5 && p.y < 0.3 ? (float)f.walker : 0.0f;
         f.normal[0][i] = f.normal[1][i] = 0.0f;
         f.normal[2][i] = -1.0f;
@@ -94,12 +80,14 @@ static void look(const rlf_pose *T)
     for (int32_t i = 0; i < PIXELS; i++) {
         const rlf_vec3 ray = {(double)f.ray_x[i], (double)f.ray_y[i], 1.0};
         const rlf_vec3 way = rlf_rotate(T->q, ray);
-        const box *nearest = &room;
-        double z = hit(&room, T->p, way, true);
+        const rlf_aabb *nearest = &room;
+        double in, leave, z;
+        (void)box_ray(&room, T->p, way, &in, &z);
         for (size_t k = 0; k < sizeof(boxes) / sizeof(boxes[0]); k++) {
-            const double nearer = hit(&boxes[k], T->p, way, false);
-            nearest = nearer > 0.0 && nearer < z ? &boxes[k] : nearest;
-            z = nearest == &boxes[k] ? nearer : z;
+            if (box_ray(&boxes[k], T->p, way, &in, &leave) && in > 0.0 && in < z) {
+                nearest = &boxes[k];
+                z = in;
+            }
         }
         const rlf_vec3 p = rlf_mad(T->p, way, z);
         const rlf_vec3 n = rlf_rotate(rlf_quat_conjugate(T->q), normal_at(nearest, p, way));
@@ -144,8 +132,7 @@ static rlf_pose turned(double yaw)
 static void open_room(void)
 {
     memset(&f, 0, sizeof(f));
-    f.rig.depth = (rlf_camera){
-        .width = WIDTH, .height = HEIGHT, .fx = 183.0, .fy = 183.0, .cx = 127.5, .cy = 105.5};
+    f.rig.depth = pinhole(WIDTH, HEIGHT, 183.0);
     f.rig.depth_min_m = 0.3;
     f.rig.depth_max_m = 8.0;
     f.rig.noise = (rlf_depth_noise){0.0015, -0.0005, 0.0003};
@@ -163,7 +150,7 @@ static void open_room(void)
     def.rig = f.rig;
     def.voxel_m = 0.02;
     def.memory_mb = 64;
-    assert_int_equal(rlf_map_create(&def, &f.map), RLF_OK);
+    f.map = map_of(&def);
     assert_int_equal(camera_pose_open(&f.camera, &f.rig, NULL), RLF_OK);
 }
 
@@ -178,10 +165,12 @@ static void begin(void)
     }
 }
 
-static void end(void)
+static int end(void **state)
 {
+    (void)state;
     camera_pose_close(&f.camera);
     rlf_map_destroy(&f.map);
+    return 0;
 }
 
 static double off(const rlf_pose *T)
@@ -190,9 +179,8 @@ static double off(const rlf_pose *T)
 }
 
 /* Blind for a second, and turned to another side when it sees again. */
-static void test_a_camera_that_was_blind_is_found_again(void **state)
+TEST_CASE(test_a_camera_that_was_blind_is_found_again)
 {
-    (void)state;
     begin();
     for (int k = 0; k < 4; k++) {
         memset(f.depth, 0, sizeof(f.depth));
@@ -210,7 +198,6 @@ static void test_a_camera_that_was_blind_is_found_again(void **state)
         assert_int_equal(f.camera.last.health, RLF_TRACK_GOOD);
         assert_true(off(&T) < FOUND_M);
     }
-    end();
 }
 
 /* What the map says of places on the walls. */
@@ -226,9 +213,8 @@ static double told(void)
 
 /* A wall that is no part of the room, no depth, and depth that is no depth: nothing is fused, and
  * when the room is seen again, it is as it was. */
-static void test_what_is_not_the_room_leaves_the_map_alone(void **state)
+TEST_CASE(test_what_is_not_the_room_leaves_the_map_alone)
 {
-    (void)state;
     begin();
     memset(f.depth, 0, sizeof(f.depth));
     (void)feed();
@@ -249,13 +235,11 @@ static void test_what_is_not_the_room_leaves_the_map_alone(void **state)
         (void)feed();
     }
     assert_true(f.camera.may_fuse && off(&T) < FOUND_M);
-    end();
 }
 
 /* The last frames before the track is lost may have been wrong: they are taken back. */
-static void test_what_was_fused_before_the_loss_is_taken_back(void **state)
+TEST_CASE(test_what_was_fused_before_the_loss_is_taken_back)
 {
-    (void)state;
     begin();
     rlf_map_fence(f.map);
     f.camera.since_fence = 0;
@@ -272,29 +256,25 @@ static void test_what_was_fused_before_the_loss_is_taken_back(void **state)
     memset(f.depth, 0, sizeof(f.depth));
     assert_int_equal(feed(), RLF_TRACK_LOST);
     assert_true(told() == before);
-    end();
 }
 
 /* The same frame again and again: hard edges of brightness and what is fused meanwhile do not move
  * the camera. */
-static void test_a_camera_at_rest_keeps_its_pose(void **state)
+TEST_CASE(test_a_camera_at_rest_keeps_its_pose)
 {
     const rlf_pose T = rlf_pose_identity();
-    (void)state;
     open_room();
     look(&T);
     for (int k = 0; k < 100; k++) {
         assert_int_equal(feed(), RLF_TRACK_GOOD);
         assert_true(off(&T) < 1e-4);
     }
-    end();
 }
 
 /* Who walks away before a window leaves nothing behind him. */
-static void test_who_walks_is_not_fused(void **state)
+TEST_CASE(test_who_walks_is_not_fused)
 {
     const rlf_pose T = rlf_pose_identity();
-    (void)state;
     open_room();
     int32_t fused = 0;
     for (int k = 0; k < 60; k++) {
@@ -307,17 +287,6 @@ static void test_who_walks_is_not_fused(void **state)
         fused += rlf_map_sample(f.map, p).state == RLF_MAP_INSIDE;
     }
     assert_true(fused == 0);
-    end();
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_camera_that_was_blind_is_found_again),
-        cmocka_unit_test(test_what_is_not_the_room_leaves_the_map_alone),
-        cmocka_unit_test(test_what_was_fused_before_the_loss_is_taken_back),
-        cmocka_unit_test(test_a_camera_at_rest_keeps_its_pose),
-        cmocka_unit_test(test_who_walks_is_not_fused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(NULL, end)

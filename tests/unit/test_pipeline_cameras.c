@@ -1,7 +1,7 @@
 /* Two pipelines of one world: cameras that face each other across a room with a board between
  * them. Bodies meet what either sees, and each picture hides what its own camera cannot see. */
-#include "relief/pipeline.h"
-#include "relief/synthetic.h"
+#include "created.h"
+#include "pinhole.h"
 #include "test.h"
 
 #include <math.h>
@@ -29,12 +29,7 @@ typedef struct eye {
 static rlf_rig rig(void)
 {
     rlf_rig out = rlf_rig_default();
-    out.depth = (rlf_camera){.width = WIDTH,
-                             .height = HEIGHT,
-                             .fx = FOCAL,
-                             .fy = FOCAL,
-                             .cx = 0.5 * (WIDTH - 1),
-                             .cy = 0.5 * (HEIGHT - 1)};
+    out.depth = pinhole(WIDTH, HEIGHT, FOCAL);
     return out;
 }
 
@@ -61,7 +56,7 @@ static void open_eye(eye *e, const rlf_pose *T_world, rlf_pipeline *joins, const
     def.T_world_camera = *T_world;
     def.joins = joins;
     def.scene = scene;
-    assert_int_equal(rlf_pipeline_create(&def, &e->pipeline), RLF_OK);
+    e->pipeline = pipeline_of(&def);
     e->frame = (rlf_frame){.depth_u16 = e->depth,
                            .depth_stride = WIDTH * sizeof(uint16_t),
                            .depth_units_per_metre = 1000};
@@ -129,9 +124,8 @@ static double shown(const eye *e)
 
 static eye eyes[2];
 
-static void a_crate_lies_where_one_camera_sees_the_floor(void **state)
+TEST_CASE(a_crate_lies_where_one_camera_sees_the_floor)
 {
-    (void)state;
     double least;
     const rlf_vec3 zero = {0, 0, 0};
     rlf_body_def body = ball(rlf_vec3_make(0.1, 0.5, 2.3), zero);
@@ -149,9 +143,8 @@ static void a_crate_lies_where_one_camera_sees_the_floor(void **state)
     close_eyes(&eyes[0], &eyes[1]);
 }
 
-static void a_ball_meets_the_back_that_is_seen(void **state)
+TEST_CASE(a_ball_meets_the_back_that_is_seen)
 {
-    (void)state;
     double least;
     rlf_body_def body = ball(rlf_vec3_make(0, 0.2, 3.0), rlf_vec3_make(0, -1, -2.5));
     (void)play(&body, true, &least, &eyes[0], &eyes[1]);
@@ -171,12 +164,12 @@ static uint64_t frames_beside(double rate, uint64_t *out_again)
         room.scene = RLF_SYNTHETIC_EMPTY;
         room.enable_color = room.enable_truth = false;
         room.frames_per_second = k == 0 ? 30.0 : rate;
-        assert_int_equal(rlf_synthetic_create(&room, &sources[k]), RLF_OK);
+        sources[k] = synthetic_of(&room);
         rlf_pipeline_def def = rlf_pipeline_def_default(RLF_PROFILE_LIVE, sources[k], NULL);
         def.enable_render = false;
         def.world.camera_capacity = 2;
         def.joins = pipelines[0];
-        assert_int_equal(rlf_pipeline_create(&def, &pipelines[k]), RLF_OK);
+        pipelines[k] = pipeline_of(&def);
     }
     rlf_pipeline_output out;
     for (int32_t k = 0; k < 31; k++) {
@@ -193,9 +186,8 @@ static uint64_t frames_beside(double rate, uint64_t *out_again)
     return given;
 }
 
-static void recordings_keep_together(void **state)
+TEST_CASE(recordings_keep_together)
 {
-    (void)state;
     static const double rates[3] = {10.0, 30.0, 60.0};
     for (int k = 0; k < 3; k++) {
         uint64_t again;
@@ -206,13 +198,12 @@ static void recordings_keep_together(void **state)
     }
 }
 
-static void what_cannot_join_is_told(void **state)
+TEST_CASE(what_cannot_join_is_told)
 {
-    (void)state;
     const rlf_rig cameras = rig();
     rlf_pipeline_def def = rlf_pipeline_def_for_rig(RLF_PROFILE_LIVE, &cameras, NULL);
     rlf_pipeline *alone = NULL, *other = NULL;
-    assert_int_equal(rlf_pipeline_create(&def, &alone), RLF_OK);
+    alone = pipeline_of(&def);
     def.joins = alone;
     assert_int_equal(rlf_pipeline_create(&def, &other), RLF_ERROR_INVALID);
     assert_non_null(strstr(rlf_error_text(), "camera_capacity"));
@@ -220,15 +211,4 @@ static void what_cannot_join_is_told(void **state)
     assert_int_equal(rlf_pipeline_create(&def, &other), RLF_ERROR_INVALID);
     assert_non_null(strstr(rlf_error_text(), "joins"));
     rlf_pipeline_destroy(&alone);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_crate_lies_where_one_camera_sees_the_floor),
-        cmocka_unit_test(a_ball_meets_the_back_that_is_seen),
-        cmocka_unit_test(recordings_keep_together),
-        cmocka_unit_test(what_cannot_join_is_told),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

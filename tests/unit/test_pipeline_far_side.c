@@ -81,7 +81,7 @@ static float end_at(view *v, int32_t x, int32_t y)
     return (v->depth[i] + thickness[i]) * way;
 }
 
-static void an_arm_before_the_trunk_has_its_like_behind_it(void **state)
+TEST_CASE(an_arm_before_the_trunk_has_its_like_behind_it)
 {
     view *v = *state;
     const double sines[2] = {0.0, 0.5}, cosines[2] = {1.0, 0.8660254};
@@ -95,7 +95,7 @@ static void an_arm_before_the_trunk_has_its_like_behind_it(void **state)
     }
 }
 
-static void what_is_not_over_the_trunk_stays_as_thin_as_it_is(void **state)
+TEST_CASE(what_is_not_over_the_trunk_stays_as_thin_as_it_is)
 {
     view *v = *state;
     look(v, 0.0, 1.0);
@@ -106,7 +106,7 @@ static void what_is_not_over_the_trunk_stays_as_thin_as_it_is(void **state)
     assert_float_equal(end_at(v, 90, 45), MIDDLE - 0.40f, 1e-3f);
 }
 
-static void what_has_no_trunk_or_no_side_stays_as_it_is(void **state)
+TEST_CASE(what_has_no_trunk_or_no_side_stays_as_it_is)
 {
     view *v = *state;
     look(v, 0.0, 1.0);
@@ -117,7 +117,7 @@ static void what_has_no_trunk_or_no_side_stays_as_it_is(void **state)
     assert_ptr_equal(far_side_thicken(&v->far, &v->surface, v->down), v->thickness);
 }
 
-static void two_trunks_in_one_region_have_no_middle(void **state)
+TEST_CASE(two_trunks_in_one_region_have_no_middle)
 {
     view *v = *state;
     part other = trunk;
@@ -130,7 +130,7 @@ static void two_trunks_in_one_region_have_no_middle(void **state)
     assert_ptr_equal(far_side_thicken(&v->far, &v->surface, v->down), v->thickness);
 }
 
-static void nothing_reaches_into_the_wall(void **state)
+TEST_CASE(nothing_reaches_into_the_wall)
 {
     view *v = *state;
     look(v, 0.0, 1.0);
@@ -142,22 +142,17 @@ static void nothing_reaches_into_the_wall(void **state)
     assert_float_equal(end_at(v, 95, 70), MIDDLE + 0.2f, 1e-3f);
 }
 
+static int create(void **state)
+{
+    static view memory;
+    *state = &memory;
+    return 0;
+}
+
 static int destroy(void **state)
 {
     far_side_destroy(&((view *)*state)->far);
     return 0;
 }
 
-int main(void)
-{
-    static view memory;
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_prestate(an_arm_before_the_trunk_has_its_like_behind_it, &memory),
-        cmocka_unit_test_prestate(what_is_not_over_the_trunk_stays_as_thin_as_it_is, &memory),
-        cmocka_unit_test_prestate(what_has_no_trunk_or_no_side_stays_as_it_is, &memory),
-        cmocka_unit_test_prestate(two_trunks_in_one_region_have_no_middle, &memory),
-        cmocka_unit_test_prestate_setup_teardown(nothing_reaches_into_the_wall, NULL, destroy,
-                                                 &memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_GROUP(create, destroy)

@@ -78,9 +78,8 @@ static int run(rlf_pipeline *pipeline, rlf_gesture *out_last, int32_t *out_bodie
     return sure;
 }
 
-static void a_pinch_spawns_a_body(void **state)
+TEST_CASE(a_pinch_spawns_a_body)
 {
-    (void)state;
     hand_source memory;
     rlf_source *source = open_hand(&memory);
     rlf_scene scene = {.gravity = {0, 0, 0}};
@@ -134,9 +133,8 @@ static rlf_snapshot run_bound(rlf_hand_action action, const rlf_body_def *body,
 }
 
 /* A pinch throws a second body, takes the near one away, or lets all start anew. */
-static void a_pinch_throws_removes_and_resets(void **state)
+TEST_CASE(a_pinch_throws_removes_and_resets)
 {
-    (void)state;
     rlf_body_state body;
     rlf_body_def def = rlf_body_def_default();
     def.shape = (rlf_shape){.type = RLF_SHAPE_SPHERE, .radius = 0.02};
@@ -153,9 +151,8 @@ static void a_pinch_throws_removes_and_resets(void **state)
 }
 
 /* Off, nobody looks for hands; the view turns them on and draws them. */
-static void the_view_turns_them_on(void **state)
+TEST_CASE(the_view_turns_them_on)
 {
-    (void)state;
     hand_source memory;
     rlf_source *source = open_hand(&memory);
     rlf_pipeline_def def = rlf_pipeline_def_default(RLF_PROFILE_LIVE, source, NULL);
@@ -183,14 +180,4 @@ static void the_view_turns_them_on(void **state)
     rlf_pipeline_destroy(&pipeline);
     rlf_source_destroy(&source);
     free(memory.scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_pinch_spawns_a_body),
-        cmocka_unit_test(a_pinch_throws_removes_and_resets),
-        cmocka_unit_test(the_view_turns_them_on),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

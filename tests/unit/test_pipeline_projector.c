@@ -1,6 +1,7 @@
 /* A projector's picture: bodies alone, where its lens throws them, and nothing of what real things
  * hide from it. */
-#include "relief/pipeline.h"
+#include "created.h"
+#include "pinhole.h"
 #include "test.h"
 
 #include <math.h>
@@ -23,8 +24,7 @@ static room *make_room(double wall_m, double board_m)
     room *r = calloc(1, sizeof *r);
     assert_non_null(r);
     r->rig = rlf_rig_default();
-    r->rig.depth = (rlf_camera){
-        .width = WIDTH, .height = HEIGHT, .fx = 260, .fy = 260, .cx = 159.5, .cy = 119.5};
+    r->rig.depth = pinhole(WIDTH, HEIGHT, 260);
     r->rig.color = r->rig.depth;
     r->rig.has_color = true;
     r->rig.T_color_depth = rlf_pose_identity();
@@ -49,13 +49,13 @@ static rlf_pipeline *make_pipeline(const room *r, const rlf_vec3 *places, int32_
     rlf_pipeline_def def = rlf_pipeline_def_for_rig(RLF_PROFILE_LIVE, &r->rig, NULL);
     def.compositor.occlusion = RLF_OCCLUSION_DEPTH;
     def.compositor.enable_real_ambient = false;
-    assert_int_equal(rlf_pipeline_create(&def, &p), RLF_OK);
+    p = pipeline_of(&def);
     for (int32_t i = 0; i < count; i++) {
         rlf_body_def body = rlf_body_def_default();
         body.shape = (rlf_shape){.type = RLF_SHAPE_SPHERE, .radius = 0.02};
         body.position = places[i];
         body.release_time = 100.0;
-        assert_int_equal(rlf_world_add_body(rlf_pipeline_get_world(p), &body, NULL), RLF_OK);
+        add_body(rlf_pipeline_get_world(p), &body);
     }
     rlf_pipeline_set_view(p, RLF_VIEW_BODIES);
     return p;
@@ -113,9 +113,8 @@ static rlf_pose projector_pose(void)
     return rlf_pose_invert(&T_depth_projector);
 }
 
-static void a_body_lands_where_the_lens_throws_it(void **state)
+TEST_CASE(a_body_lands_where_the_lens_throws_it)
 {
-    (void)state;
     const rlf_vec3 places[4] = {
         {0.0, 0.0, 1.2}, {0.2, -0.25, 1.6}, {-0.3, -0.1, 1.5}, {0.35, -0.4, 1.9}};
     const rlf_camera lens = projector_lens();
@@ -130,7 +129,6 @@ static void a_body_lands_where_the_lens_throws_it(void **state)
         assert_true(find_light(&image, seen));
         assert_true(
             rlf_camera_project(&lens, rlf_transform(&T_projector_depth, places[i]), &u, &v));
-        print_message("body %d: off by %.2f, %.2f pixels\n", i, seen[0] - u, seen[1] - v);
         assert_true(fabs(seen[0] - u) < 1.0 && fabs(seen[1] - v) < 1.0);
         rlf_pipeline_destroy(&p);
     }
@@ -138,9 +136,8 @@ static void a_body_lands_where_the_lens_throws_it(void **state)
 }
 
 /* The board is between the projector and the second body, and behind the first. */
-static void real_things_hide_bodies_from_it(void **state)
+TEST_CASE(real_things_hide_bodies_from_it)
 {
-    (void)state;
     const rlf_vec3 places[2] = {{0.2, -0.1, 1.0}, {0.2, -0.1, 1.8}};
     const rlf_camera lens = projector_lens();
     const rlf_pose T_projector_depth = projector_pose();
@@ -157,9 +154,8 @@ static void real_things_hide_bodies_from_it(void **state)
 }
 
 /* With the camera's own lens and place it is the camera's picture, without what is real. */
-static void where_the_camera_is_the_picture_is_the_camera_s(void **state)
+TEST_CASE(where_the_camera_is_the_picture_is_the_camera_s)
 {
-    (void)state;
     const rlf_vec3 places[3] = {{0.0, 0.0, 1.2}, {0.3, 0.1, 1.6}, {-0.3, -0.2, 2.0}};
     room *r = make_room(2.4, 0.0);
     rlf_pipeline *camera = make_pipeline(r, places, 3), *projector = make_pipeline(r, places, 3);
@@ -189,9 +185,8 @@ static void where_the_camera_is_the_picture_is_the_camera_s(void **state)
     free(r);
 }
 
-static void a_wrong_lens_changes_nothing(void **state)
+TEST_CASE(a_wrong_lens_changes_nothing)
 {
-    (void)state;
     room *r = make_room(2.4, 0.0);
     rlf_pipeline *p = make_pipeline(r, NULL, 0);
     rlf_camera lens = projector_lens();
@@ -202,15 +197,4 @@ static void a_wrong_lens_changes_nothing(void **state)
     assert_int_equal(picture_of(p, r).width, WIDTH);
     rlf_pipeline_destroy(&p);
     free(r);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_body_lands_where_the_lens_throws_it),
-        cmocka_unit_test(real_things_hide_bodies_from_it),
-        cmocka_unit_test(where_the_camera_is_the_picture_is_the_camera_s),
-        cmocka_unit_test(a_wrong_lens_changes_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

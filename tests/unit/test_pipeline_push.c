@@ -1,7 +1,6 @@
 /* Frames that a program pushes give what the same frames give when a source is asked for them. */
 
-#include "relief/pipeline.h"
-#include "relief/synthetic.h"
+#include "created.h"
 #include "test.h"
 
 #include <string.h>
@@ -12,7 +11,7 @@ static rlf_source *open_room(void)
 {
     rlf_source *source = NULL;
     const rlf_synthetic_def def = rlf_synthetic_def_default();
-    assert_int_equal(rlf_synthetic_create(&def, &source), RLF_OK);
+    source = synthetic_of(&def);
     return source;
 }
 
@@ -21,14 +20,11 @@ static rlf_pipeline *make_pipeline(const rlf_pipeline_def *from, const rlf_scene
     rlf_pipeline_def def = *from;
     def.scene = scene;
     def.enable_render = false;
-    rlf_pipeline *p = NULL;
-    assert_int_equal(rlf_pipeline_create(&def, &p), RLF_OK);
-    return p;
+    return pipeline_of(&def);
 }
 
-static void pushed_frames_give_the_same_bodies(void **state)
+TEST_CASE(pushed_frames_give_the_same_bodies)
 {
-    (void)state;
     rlf_scene scene;
     assert_int_equal(rlf_scene_create_two_cubes(&scene), RLF_OK);
     rlf_source *asked = open_room(), *camera = open_room();
@@ -39,8 +35,7 @@ static void pushed_frames_give_the_same_bodies(void **state)
     rlf_pipeline_output from_a, from_b;
     assert_int_equal(rlf_pipeline_step(b, &from_b), RLF_NO_FRAME);
     for (int i = 0; i < FRAMES; i++) {
-        rlf_frame frame;
-        assert_int_equal(rlf_source_next(camera, &frame), RLF_OK);
+        rlf_frame frame = frame_of(camera);
         assert_int_equal(rlf_pipeline_step(a, &from_a), RLF_OK);
         assert_int_equal(rlf_pipeline_push(b, &frame, &from_b), RLF_OK);
         assert_int_equal(from_b.frame_index, i);
@@ -55,16 +50,14 @@ static void pushed_frames_give_the_same_bodies(void **state)
     rlf_scene_destroy(&scene);
 }
 
-static void a_wrong_frame_is_named_and_changes_nothing(void **state)
+TEST_CASE(a_wrong_frame_is_named_and_changes_nothing)
 {
-    (void)state;
     rlf_source *camera = open_room();
     const rlf_pipeline_def def =
         rlf_pipeline_def_for_rig(RLF_PROFILE_LIVE, &rlf_source_get_info(camera)->rig, NULL);
     rlf_pipeline *p = make_pipeline(&def, NULL);
     rlf_pipeline_output out;
-    rlf_frame frame;
-    assert_int_equal(rlf_source_next(camera, &frame), RLF_OK);
+    rlf_frame frame = frame_of(camera);
     assert_int_equal(rlf_pipeline_push(p, &frame, &out), RLF_OK);
     rlf_frame wrong = frame;
     wrong.depth_stride = 2;
@@ -74,7 +67,7 @@ static void a_wrong_frame_is_named_and_changes_nothing(void **state)
     wrong.depth_u16 = NULL;
     assert_int_equal(rlf_pipeline_push(p, &wrong, &out), RLF_ERROR_INVALID);
     assert_non_null(strstr(rlf_error_text(), "depth_u16"));
-    assert_int_equal(rlf_source_next(camera, &frame), RLF_OK);
+    frame = frame_of(camera);
     assert_int_equal(rlf_pipeline_push(p, &frame, &out), RLF_OK);
     assert_int_equal(out.frame_index, 1);
     assert_int_equal(rlf_pipeline_restart(p), RLF_OK);
@@ -84,39 +77,26 @@ static void a_wrong_frame_is_named_and_changes_nothing(void **state)
     rlf_source_destroy(&camera);
 }
 
-static void who_has_a_source_is_told_so(void **state)
+TEST_CASE(who_has_a_source_is_told_so)
 {
-    (void)state;
     rlf_source *source = open_room();
     const rlf_pipeline_def def = rlf_pipeline_def_default(RLF_PROFILE_LIVE, source, NULL);
     rlf_pipeline *p = make_pipeline(&def, NULL);
     rlf_frame frame;
     rlf_pipeline_output out;
-    assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+    frame = frame_of(source);
     assert_int_equal(rlf_pipeline_push(p, &frame, &out), RLF_ERROR_INVALID);
     assert_non_null(strstr(rlf_error_text(), "rlf_pipeline_step"));
     rlf_pipeline_destroy(&p);
     rlf_source_destroy(&source);
 }
 
-static void a_rig_without_a_camera_is_refused(void **state)
+TEST_CASE(a_rig_without_a_camera_is_refused)
 {
-    (void)state;
     const rlf_rig rig = rlf_rig_default();
     const rlf_pipeline_def def = rlf_pipeline_def_for_rig(RLF_PROFILE_LIVE, &rig, NULL);
     rlf_pipeline *p = NULL;
     assert_int_equal(rlf_pipeline_create(&def, &p), RLF_ERROR_INVALID);
     assert_null(p);
     assert_non_null(strstr(rlf_error_text(), "width"));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pushed_frames_give_the_same_bodies),
-        cmocka_unit_test(a_wrong_frame_is_named_and_changes_nothing),
-        cmocka_unit_test(who_has_a_source_is_told_so),
-        cmocka_unit_test(a_rig_without_a_camera_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

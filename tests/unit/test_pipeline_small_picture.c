@@ -2,7 +2,9 @@
  * voxels, and depth of whole millimetres without noise. */
 
 #include "pipeline/moving/moving.h"
-#include "relief/reconstruct.h"
+#include "created.h"
+#include "pinhole.h"
+#include "seen_view.h"
 #include "test.h"
 
 #include <string.h>
@@ -22,49 +24,33 @@ typedef struct fixture {
 
 static fixture f;
 
-static double axis(rlf_vec3 v, int k)
-{
-    return k == 0 ? v.x : k == 1 ? v.y : v.z;
-}
-
-/* Where a ray enters a box, or leaves it (`is_out`); 1e9 = it does not. */
-static double hit(rlf_vec3 low, rlf_vec3 high, rlf_vec3 from, rlf_vec3 way, bool is_out)
-{
-    double in = -1e9, out = 1e9;
-    for (int k = 0; k < 3; k++) {
-        const double along = axis(way, k) == 0.0 ? 1e-12 : axis(way, k);
-        const double a = (axis(low, k) - axis(from, k)) / along;
-        const double b = (axis(high, k) - axis(from, k)) / along;
-        in = rlf_max(in, rlf_min(a, b));
-        out = rlf_min(out, rlf_max(a, b));
-    }
-    return is_out ? out : (in < out && in > 0.0 ? in : 1e9);
-}
+/* The room, of which the inside is seen, and two boxes in it. */
+static const rlf_aabb room = {{-1.8, -0.9, -1.0}, {1.8, 0.9, 3.0}};
+static const rlf_aabb boxes[2] = {{{0.48, 0.42, 1.8}, {1.08, 0.9, 2.4}},
+                                  {{-0.9, 0.18, 2.22}, {-0.42, 0.9, 2.7}}};
 
 static void look(rlf_vec3 eye)
 {
     const rlf_camera *c = &f.rig.depth;
     for (int32_t i = 0; i < c->width * c->height; i++) {
         const rlf_vec3 ray = {(i % c->width - c->cx) / c->fx, (i / c->width - c->cy) / c->fy, 1.0};
-        double z =
-            hit(rlf_vec3_make(-1.8, -0.9, -1.0), rlf_vec3_make(1.8, 0.9, 3.0), eye, ray, true);
-        z = rlf_min(
-            z, hit(rlf_vec3_make(0.48, 0.42, 1.8), rlf_vec3_make(1.08, 0.9, 2.4), eye, ray, false));
-        z = rlf_min(z, hit(rlf_vec3_make(-0.9, 0.18, 2.22), rlf_vec3_make(-0.42, 0.9, 2.7), eye,
-                           ray, false));
+        double in, leave, z;
+        (void)box_ray(&room, eye, ray, &in, &z);
+        for (int32_t k = 0; k < 2; k++) {
+            z = box_ray(&boxes[k], eye, ray, &in, &leave) ? rlf_min(z, in) : z;
+        }
         f.depth_mm[i] = (uint16_t)(1000.0 * z + 0.5);
     }
 }
 
 static rlf_track_health feed(void)
 {
-    const rlf_surface *s = NULL;
     const rlf_frame frame = {.time_ns = f.time_ns += FRAME_NS,
                              .rig = &f.rig,
                              .depth_u16 = f.depth_mm,
                              .depth_stride = 2 * (ptrdiff_t)f.rig.depth.width,
                              .depth_units_per_metre = 1000.0};
-    assert_int_equal(rlf_reconstruct_process(f.stage, &frame, &s), RLF_OK);
+    const rlf_surface *s = surface_of(f.stage, &frame);
     assert_int_equal(camera_pose_find(&f.camera, f.map, s, NULL, f.time_ns), RLF_OK);
     if (f.camera.may_fuse) {
         const rlf_map_view view = {.depth = s->depth,
@@ -92,18 +78,13 @@ static void open_stage(void)
     def.enable_thickness = false;
     def.enable_coast = false;
     def.enable_color_sides = false;
-    assert_int_equal(rlf_reconstruct_create(&def, &f.stage), RLF_OK);
+    f.stage = stage_of(&def);
 }
 
 static void begin(int32_t width, int32_t height, double focal, double voxel_m)
 {
     memset(&f, 0, sizeof(f));
-    f.rig.depth = (rlf_camera){.width = width,
-                               .height = height,
-                               .fx = focal,
-                               .fy = focal,
-                               .cx = 0.5 * (width - 1),
-                               .cy = 0.5 * (height - 1)};
+    f.rig.depth = pinhole(width, height, focal);
     f.rig.depth_min_m = 0.1;
     f.rig.depth_max_m = 8.0;
     f.rig.noise = (rlf_depth_noise){0.0015, -0.0005, 0.0003};
@@ -111,7 +92,7 @@ static void begin(int32_t width, int32_t height, double focal, double voxel_m)
     def.rig = f.rig;
     def.voxel_m = voxel_m;
     def.blocks_per_frame = 0;
-    assert_int_equal(rlf_map_create(&def, &f.map), RLF_OK);
+    f.map = map_of(&def);
     open_stage();
     assert_int_equal(camera_pose_open(&f.camera, &f.rig, NULL), RLF_OK);
 }
@@ -123,7 +104,7 @@ static void end(void)
     rlf_map_destroy(&f.map);
 }
 
-static void test_small_pictures_are_tracked(void **state)
+TEST_CASE(test_small_pictures_are_tracked)
 {
     static const struct {
         int32_t width, height;
@@ -133,7 +114,6 @@ static void test_small_pictures_are_tracked(void **state)
                    {256, 192, 224.0, 0.006, 0.01},
                    {256, 192, 224.0, 0.003, 0.01},
                    {320, 240, 280.0, 0.006, 0.01}};
-    (void)state;
     for (size_t k = 0; k < sizeof(cameras) / sizeof(cameras[0]); k++) {
         begin(cameras[k].width, cameras[k].height, cameras[k].focal, cameras[k].voxel_m);
         for (int i = 0; i < FRAMES; i++) {
@@ -152,9 +132,8 @@ static void test_small_pictures_are_tracked(void **state)
 }
 
 /* A camera that warms up: the first picture with depth begins the room. */
-static void test_pictures_without_depth_do_not_begin_the_room(void **state)
+TEST_CASE(test_pictures_without_depth_do_not_begin_the_room)
 {
-    (void)state;
     begin(256, 192, 224.0, 0.012);
     for (int i = 0; i < 3; i++) {
         assert_int_equal(feed(), RLF_TRACK_LOST);
@@ -165,13 +144,4 @@ static void test_pictures_without_depth_do_not_begin_the_room(void **state)
     assert_int_equal(feed(), RLF_TRACK_GOOD);
     assert_int_equal(rlf_map_get_status(f.map).frames, 2);
     end();
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_small_pictures_are_tracked),
-        cmocka_unit_test(test_pictures_without_depth_do_not_begin_the_room),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

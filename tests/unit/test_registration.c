@@ -1,20 +1,11 @@
 /* Registration: planes keep their analytic depth, near surfaces win, the parallax shadow lies on
  * the right side with the right width and takes the far side's depth. */
 
-#include "relief/camera.h"
+#include "registration_rig.h"
 #include "test.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
-
-typedef struct rig {
-    rlf_camera depth, color;
-    float *ray_x, *ray_y, *z;
-    rlf_plane_f32 out;
-    rlf_plane_u8 state;
-    rlf_registration *registration;
-} rig;
 
 static rlf_camera depth_camera(void)
 {
@@ -30,42 +21,6 @@ static rlf_camera color_camera(void)
     return camera;
 }
 
-static rig make_rig(rlf_camera depth, rlf_camera color, rlf_pose T_color_depth)
-{
-    rig g = {.depth = depth, .color = color};
-    size_t count = (size_t)depth.width * (size_t)depth.height;
-    g.ray_x = calloc(count, sizeof(float));
-    g.ray_y = calloc(count, sizeof(float));
-    g.z = calloc(count, sizeof(float));
-    for (int32_t v = 0; v < depth.height; v++) {
-        for (int32_t u = 0; u < depth.width; u++) {
-            rlf_vec3 ray;
-            assert_true(rlf_camera_unproject(&depth, u, v, &ray));
-            g.ray_x[v * depth.width + u] = (float)ray.x;
-            g.ray_y[v * depth.width + u] = (float)ray.y;
-        }
-    }
-    size_t pixels = (size_t)color.width * (size_t)color.height;
-    g.out = (rlf_plane_f32){calloc(pixels, sizeof(float)), color.width, color.height,
-                            color.width * (ptrdiff_t)sizeof(float)};
-    g.state = (rlf_plane_u8){calloc(pixels, 1), color.width, color.height, color.width};
-    assert_int_equal(rlf_registration_create(&g.depth, g.ray_x, g.ray_y, &g.color, &T_color_depth,
-                                             &g.registration),
-                     RLF_OK);
-    return g;
-}
-
-static void free_rig(rig *g)
-{
-    rlf_registration_destroy(&g->registration);
-    assert_null(g->registration);
-    free(g->ray_x);
-    free(g->ray_y);
-    free(g->z);
-    free(g->out.data);
-    free(g->state.data);
-}
-
 static rlf_pose translation(double x, double y, double z)
 {
     rlf_pose T = rlf_pose_identity();
@@ -73,120 +28,111 @@ static rlf_pose translation(double x, double y, double z)
     return T;
 }
 
-static void same_camera_is_a_copy(void **state)
+TEST_CASE(same_camera_is_a_copy)
 {
-    (void)state;
-    rig g = make_rig(depth_camera(), depth_camera(), rlf_pose_identity());
+    make_rig(depth_camera(), depth_camera(), rlf_pose_identity());
     int32_t count = g.depth.width * g.depth.height;
     for (int32_t i = 0; i < count; i++) {
         g.z[i] = i % 7 == 3 ? 0.0f : 0.6f + 0.001f * (float)(i % 3001);
     }
-    rlf_registration_apply(g.registration, g.z, &g.out, &g.state);
+    apply_rig();
     for (int32_t i = 0; i < count; i++) {
         assert_true(g.out.data[i] == g.z[i]);
         assert_int_equal(g.state.data[i],
                          g.z[i] > 0 ? RLF_REGISTERED_VISIBLE : RLF_REGISTERED_EMPTY);
     }
-    free_rig(&g);
 }
 
 /* A tilted plane n.p = d seen by the depth camera, checked along the colour camera's own rays. */
-static void check_plane(rig *g, const rlf_pose *T, rlf_vec3 n, double d, double max_slope_error)
+static void check_plane(const rlf_pose *T, rlf_vec3 n, double d, double max_slope_error)
 {
-    for (int32_t i = 0; i < g->depth.width * g->depth.height; i++) {
-        g->z[i] = (float)(d / (n.x * g->ray_x[i] + n.y * g->ray_y[i] + n.z));
+    for (int32_t i = 0; i < g.depth.width * g.depth.height; i++) {
+        g.z[i] = (float)(d / (n.x * g.ray_x[i] + n.y * g.ray_y[i] + n.z));
     }
-    rlf_registration_apply(g->registration, g->z, &g->out, &g->state);
+    apply_rig();
     rlf_vec3 n_color = rlf_rotate(T->q, n);
     double d_color = d + rlf_dot(n_color, T->p);
     int32_t inside = 0;
     int32_t holes = 0;
-    for (int32_t v = 0; v < g->color.height; v++) {
-        for (int32_t u = 0; u < g->color.width; u++) {
+    for (int32_t v = 0; v < g.color.height; v++) {
+        for (int32_t u = 0; u < g.color.width; u++) {
             rlf_vec3 ray;
             double du, dv;
-            if (!rlf_camera_unproject(&g->color, u, v, &ray)) {
+            if (!rlf_camera_unproject(&g.color, u, v, &ray)) {
                 continue;
             }
             double z = d_color / rlf_dot(n_color, ray);
             rlf_vec3 p = rlf_transform_inverse(T, rlf_scale(ray, z));
-            if (!rlf_camera_project(&g->depth, p, &du, &dv) || du < 2 || dv < 2 ||
-                du > g->depth.width - 3 || dv > g->depth.height - 3) {
+            if (!rlf_camera_project(&g.depth, p, &du, &dv) || du < 2 || dv < 2 ||
+                du > g.depth.width - 3 || dv > g.depth.height - 3) {
                 continue;
             }
             inside++;
-            float got = rlf_f32_row(&g->out, v)[u];
-            holes += rlf_u8_row(&g->state, v)[u] != RLF_REGISTERED_VISIBLE;
-            assert_int_not_equal(rlf_u8_row(&g->state, v)[u], RLF_REGISTERED_EMPTY);
+            float got = rlf_f32_row(&g.out, v)[u];
+            holes += rlf_u8_row(&g.state, v)[u] != RLF_REGISTERED_VISIBLE;
+            assert_int_not_equal(rlf_u8_row(&g.state, v)[u], RLF_REGISTERED_EMPTY);
             assert_true(fabs(got - z) <= max_slope_error * z);
         }
     }
-    assert_true(inside > g->color.width * g->color.height / 2);
+    assert_true(inside > g.color.width * g.color.height / 2);
     assert_true(holes <= inside / 200); /* the rectangles themselves leave next to no gaps */
 }
 
-static void planes_keep_their_depth(void **state)
+TEST_CASE(planes_keep_their_depth)
 {
-    (void)state;
     rlf_pose T = translation(-0.052, 0.001, 0.002);
     T.q = rlf_quat_from_axis_angle(rlf_normalize(rlf_vec3_make(0.3, 1, 0.2)), 0.01);
-    rig g = make_rig(depth_camera(), color_camera(), T);
-    check_plane(&g, &T, rlf_vec3_make(0, 0, 1), 2.0, 1e-4);
+    make_rig(depth_camera(), color_camera(), T);
+    check_plane(&T, rlf_vec3_make(0, 0, 1), 2.0, 1e-4);
     /* A rectangle is flat: half a depth pixel and half a colour pixel away the plane has moved. */
-    check_plane(&g, &T, rlf_normalize(rlf_vec3_make(0.4, 0.3, 1)), 1.5, 0.003);
-    free_rig(&g);
+    check_plane(&T, rlf_normalize(rlf_vec3_make(0.4, 0.3, 1)), 1.5, 0.003);
 }
 
-static void distorted_colour_camera_sees_the_same_plane(void **state)
+TEST_CASE(distorted_colour_camera_sees_the_same_plane)
 {
-    (void)state;
     rlf_camera color = color_camera();
     color.distortion_model = RLF_DISTORTION_PLUMB_BOB;
     const double k[5] = {0.09, -0.27, 0.001, -0.0007, 0.09};
     memcpy(color.distortion, k, sizeof(k));
     rlf_pose T = translation(-0.052, 0, 0);
-    rig g = make_rig(depth_camera(), color, T);
-    check_plane(&g, &T, rlf_vec3_make(0, 0, 1), 2.0, 1e-4);
-    check_plane(&g, &T, rlf_normalize(rlf_vec3_make(-0.5, 0.2, 1)), 1.5, 0.004);
-    free_rig(&g);
+    make_rig(depth_camera(), color, T);
+    check_plane(&T, rlf_vec3_make(0, 0, 1), 2.0, 1e-4);
+    check_plane(&T, rlf_normalize(rlf_vec3_make(-0.5, 0.2, 1)), 1.5, 0.004);
 }
 
 /* A lens that draws the border together, as Azure Kinect's: there the rectangles are wider. */
-static void distorted_depth_camera_leaves_no_gaps(void **state)
+TEST_CASE(distorted_depth_camera_leaves_no_gaps)
 {
-    (void)state;
     rlf_camera depth = depth_camera();
     depth.distortion_model = RLF_DISTORTION_RATIONAL_POLYNOMIAL;
     const double k[8] = {0.548, -0.021, 0.0, 0.0, -0.0027, 0.89, 0.086, -0.0139};
     memcpy(depth.distortion, k, sizeof(k));
     rlf_pose T = translation(-0.032, 0, 0.004);
-    rig g = make_rig(depth, color_camera(), T);
-    check_plane(&g, &T, rlf_vec3_make(0, 0, 1), 0.5, 1e-4);
-    check_plane(&g, &T, rlf_normalize(rlf_vec3_make(-0.3, 0.2, 1)), 1.5, 0.004);
-    free_rig(&g);
+    make_rig(depth, color_camera(), T);
+    check_plane(&T, rlf_vec3_make(0, 0, 1), 0.5, 1e-4);
+    check_plane(&T, rlf_normalize(rlf_vec3_make(-0.3, 0.2, 1)), 1.5, 0.004);
 }
 
 /* A near strip before a far wall; returns the shadow's pixels in the middle row. */
-static void two_planes(rig *g, int32_t first, int32_t last, double z_near, double z_far)
+static void two_planes(int32_t first, int32_t last, double z_near, double z_far)
 {
-    for (int32_t v = 0; v < g->depth.height; v++) {
-        for (int32_t u = 0; u < g->depth.width; u++) {
+    for (int32_t v = 0; v < g.depth.height; v++) {
+        for (int32_t u = 0; u < g.depth.width; u++) {
             bool is_near = u >= first && u <= last;
-            g->z[v * g->depth.width + u] = (float)(is_near ? z_near : z_far);
+            g.z[v * g.depth.width + u] = (float)(is_near ? z_near : z_far);
         }
     }
-    rlf_registration_apply(g->registration, g->z, &g->out, &g->state);
+    apply_rig();
 }
 
-static void shadow_has_its_side_width_and_depth(void **state)
+TEST_CASE(shadow_has_its_side_width_and_depth)
 {
-    (void)state;
     const double z_near = 1.5;
     const double z_far = 3.0;
     for (int side = -1; side <= 1; side += 2) {
         double b = 0.052 * side; /* p_color = p_depth - b: the colour camera sits at +b */
-        rig g = make_rig(depth_camera(), color_camera(), translation(-b, 0, 0));
-        two_planes(&g, 200, 299, z_near, z_far);
+        make_rig(depth_camera(), color_camera(), translation(-b, 0, 0));
+        two_planes(200, 299, z_near, z_far);
         double expected = g.color.fx * 0.052 * (1 / z_near - 1 / z_far);
         double left = g.color.fx * ((199.5 - g.depth.cx) / g.depth.fx - b / z_near) + g.color.cx;
         double right = g.color.fx * ((299.5 - g.depth.cx) / g.depth.fx - b / z_near) + g.color.cx;
@@ -211,17 +157,15 @@ static void shadow_has_its_side_width_and_depth(void **state)
         }
         assert_true(fabs(near_count - (right - left)) <= 1.0);
         assert_true(fabs(filled - expected) <= 1.0);
-        free_rig(&g);
     }
 }
 
 /* Row by row without a z-buffer: every pixel lands where its point is seen, or nowhere. */
-static void pixels_of_a_row_are_found(void **state)
+TEST_CASE(pixels_of_a_row_are_found)
 {
-    (void)state;
     enum { STRIDE = 960 * 4 + 64 };
-    rig g = make_rig(depth_camera(), color_camera(), translation(-0.052, 0, 0));
-    two_planes(&g, 200, 299, 1.5, 3.0);
+    make_rig(depth_camera(), color_camera(), translation(-0.052, 0, 0));
+    two_planes(200, 299, 1.5, 3.0);
     g.z[200 * 512 + 400] = 0.0f;
     int32_t outside = 0;
     for (int32_t y = 0; y < 424; y += 100) {
@@ -245,20 +189,18 @@ static void pixels_of_a_row_are_found(void **state)
         }
     }
     assert_true(outside > 1 && outside < 3 * 512);
-    free_rig(&g);
 }
 
 /* The strip of the far wall that the near edge keeps from the colour camera lies on the other side
  * of the strip that it keeps from the depth camera, and is as wide in depth pixels. */
-static void both_maps_know_what_is_hidden(void **state)
+TEST_CASE(both_maps_know_what_is_hidden)
 {
-    (void)state;
     const double z_near = 1.5;
     const double z_far = 3.0;
     for (int side = -1; side <= 1; side += 2) {
-        rig g = make_rig(depth_camera(), color_camera(), translation(-0.052 * side, 0, 0));
+        make_rig(depth_camera(), color_camera(), translation(-0.052 * side, 0, 0));
         uint8_t *seen = malloc((size_t)g.depth.width * (size_t)g.depth.height);
-        two_planes(&g, 200, 299, z_near, z_far);
+        two_planes(200, 299, z_near, z_far);
         g.z[200 * 512 + 400] = 0.0f;
         rlf_aligned out = {g.out, g.state, seen};
         rlf_registration_align(g.registration, g.z, &out);
@@ -283,19 +225,17 @@ static void both_maps_know_what_is_hidden(void **state)
         out.seen = NULL;
         rlf_registration_align(g.registration, g.z, &out);
         free(seen);
-        free_rig(&g);
     }
 }
 
-static void vertical_baseline_fills_columns(void **state)
+TEST_CASE(vertical_baseline_fills_columns)
 {
-    (void)state;
-    rig g = make_rig(depth_camera(), color_camera(), translation(0, -0.05, 0));
+    make_rig(depth_camera(), color_camera(), translation(0, -0.05, 0));
     for (int32_t i = 0; i < g.depth.width * g.depth.height; i++) {
         int32_t v = i / g.depth.width;
         g.z[i] = v >= 180 && v < 240 ? 1.0f : 2.0f;
     }
-    rlf_registration_apply(g.registration, g.z, &g.out, &g.state);
+    apply_rig();
     int32_t filled = 0;
     for (int32_t v = 0; v < g.color.height; v++) {
         if (rlf_u8_row(&g.state, v)[480] == RLF_REGISTERED_FILLED) {
@@ -304,38 +244,36 @@ static void vertical_baseline_fills_columns(void **state)
         }
     }
     assert_true(fabs(filled - 540.5 * 0.05 * 0.5) <= 1.0);
-    free_rig(&g);
 }
 
 /* Rows [begin, end) by themselves are those of the whole picture. */
-static void check_rows(rig *g, int32_t begin, int32_t end)
+static void check_rows(int32_t begin, int32_t end)
 {
-    const size_t width = (size_t)g->color.width;
-    const size_t pixels = width * (size_t)g->color.height;
+    const size_t width = (size_t)g.color.width;
+    const size_t pixels = width * (size_t)g.color.height;
     float *z = malloc(pixels * sizeof(float));
     uint8_t *seen = malloc(pixels);
-    const rlf_plane_f32 out = {z, g->out.width, g->out.height, g->out.stride};
-    const rlf_plane_u8 seen_plane = {seen, g->state.width, g->state.height, g->state.stride};
-    const rlf_plane_u8 no_state = {NULL, g->state.width, g->state.height, g->state.stride};
+    const rlf_plane_f32 out = {z, g.out.width, g.out.height, g.out.stride};
+    const rlf_plane_u8 seen_plane = {seen, g.state.width, g.state.height, g.state.stride};
+    const rlf_plane_u8 no_state = {NULL, g.state.width, g.state.height, g.state.stride};
     for (int i = 0; i < 2; i++) {
         memset(z, 1, pixels * sizeof(float));
         memset(seen, 77, pixels);
-        rlf_registration_apply_rows(g->registration, g->z, begin, end, &out,
+        rlf_registration_apply_rows(g.registration, g.z, begin, end, &out,
                                     i == 0 ? &seen_plane : &no_state);
         const size_t first = (size_t)begin * width;
         const size_t count = (size_t)(end - begin) * width;
-        assert_memory_equal(z + first, g->out.data + first, count * sizeof(float));
+        assert_memory_equal(z + first, g.out.data + first, count * sizeof(float));
         if (i == 0) {
-            assert_memory_equal(seen + first, g->state.data + first, count);
+            assert_memory_equal(seen + first, g.state.data + first, count);
         }
     }
     free(z);
     free(seen);
 }
 
-static void rows_are_those_of_the_picture(void **state)
+TEST_CASE(rows_are_those_of_the_picture)
 {
-    (void)state;
     const rlf_vec3 baselines[3] = {{-0.052, 0.003, 0.01}, {0.0, -0.05, 0.0}, {0.02, 0.0, -0.1}};
     srand(4);
     for (int i = 0; i < 6; i++) {
@@ -345,58 +283,51 @@ static void rows_are_those_of_the_picture(void **state)
             color.distortion[0] = 0.05;
         }
         rlf_pose T = {baselines[i % 3], rlf_quat_from_axis_angle(rlf_vec3_make(1, 0, 0), 0.04)};
-        rig g = make_rig(depth_camera(), color, T);
+        make_rig(depth_camera(), color, T);
         for (int32_t k = 0; k < g.depth.width * g.depth.height; k++) {
             int32_t thing = (k % g.depth.width / 40 + k / g.depth.width / 50) % 3;
             g.z[k] = rand() % 9 == 0 ? 0.0f : 1.0f + 0.8f * (float)thing;
         }
-        rlf_registration_apply(g.registration, g.z, &g.out, &g.state);
-        check_rows(&g, 0, g.color.height);
-        check_rows(&g, 0, 100);
-        check_rows(&g, 217, 218);
-        check_rows(&g, 300, g.color.height);
-        check_rows(&g, 40, 40);
-        free_rig(&g);
+        apply_rig();
+        check_rows(0, g.color.height);
+        check_rows(0, 100);
+        check_rows(217, 218);
+        check_rows(300, g.color.height);
+        check_rows(40, 40);
     }
 }
 
-static void wide_holes_stay_empty(void **state)
+TEST_CASE(wide_holes_stay_empty)
 {
-    (void)state;
-    rig g = make_rig(depth_camera(), color_camera(), translation(-0.052, 0, 0));
-    two_planes(&g, 200, 299, 0.0, 3.0);
+    make_rig(depth_camera(), color_camera(), translation(-0.052, 0, 0));
+    two_planes(200, 299, 0.0, 3.0);
     assert_int_equal(rlf_u8_row(&g.state, 270)[470], RLF_REGISTERED_EMPTY);
     assert_true(rlf_f32_row(&g.out, 270)[470] == 0.0f);
     memset(g.z, 0, (size_t)g.depth.width * (size_t)g.depth.height * sizeof(float));
-    rlf_registration_apply(g.registration, g.z, &g.out, &g.state);
+    apply_rig();
     for (int32_t i = 0; i < g.color.width * g.color.height; i++) {
         assert_int_equal(g.state.data[i], RLF_REGISTERED_EMPTY);
         assert_true(g.out.data[i] == 0.0f);
     }
-    free_rig(&g);
 }
 
 /* A small depth grid makes rectangles of many pixels; strides and odd sizes are the caller's. */
-static void coarse_grid_covers_the_picture(void **state)
+TEST_CASE(coarse_grid_covers_the_picture)
 {
-    (void)state;
     rlf_camera full = depth_camera();
     rlf_pose T = translation(-0.052, 0, 0);
-    rig g = make_rig(rlf_camera_decimate(&full, 8), color_camera(), T);
-    check_plane(&g, &T, rlf_vec3_make(0, 0, 1), 2.0, 1e-4);
-    free_rig(&g);
+    make_rig(rlf_camera_decimate(&full, 8), color_camera(), T);
+    check_plane(&T, rlf_vec3_make(0, 0, 1), 2.0, 1e-4);
     rlf_camera one = {.width = 1, .height = 1, .fx = 1, .fy = 1};
-    rig tiny = make_rig(one, one, rlf_pose_identity());
-    tiny.z[0] = 2.5f;
-    rlf_registration_apply(tiny.registration, tiny.z, &tiny.out, &tiny.state);
-    assert_true(tiny.out.data[0] == 2.5f);
-    free_rig(&tiny);
+    make_rig(one, one, rlf_pose_identity());
+    g.z[0] = 2.5f;
+    apply_rig();
+    assert_true(g.out.data[0] == 2.5f);
 }
 
-static void bad_depth_and_padding_are_left_alone(void **state)
+TEST_CASE(bad_depth_and_padding_are_left_alone)
 {
-    (void)state;
-    rig g = make_rig(depth_camera(), color_camera(), translation(-0.052, 0.01, -0.3));
+    make_rig(depth_camera(), color_camera(), translation(-0.052, 0.01, -0.3));
     int32_t count = g.depth.width * g.depth.height;
     const float odd[6] = {NAN, INFINITY, -1.0f, 1e30f, 1e-30f, 0.29f};
     for (int32_t i = 0; i < count; i++) {
@@ -422,12 +353,10 @@ static void bad_depth_and_padding_are_left_alone(void **state)
         }
     }
     free(padded);
-    free_rig(&g);
 }
 
-static void wrong_cameras_are_refused(void **state)
+TEST_CASE(wrong_cameras_are_refused)
 {
-    (void)state;
     rlf_camera good = depth_camera();
     rlf_camera bad = good;
     bad.fx = 0;
@@ -443,22 +372,4 @@ static void wrong_cameras_are_refused(void **state)
     rlf_registration_destroy(NULL);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(same_camera_is_a_copy),
-        cmocka_unit_test(planes_keep_their_depth),
-        cmocka_unit_test(distorted_colour_camera_sees_the_same_plane),
-        cmocka_unit_test(distorted_depth_camera_leaves_no_gaps),
-        cmocka_unit_test(shadow_has_its_side_width_and_depth),
-        cmocka_unit_test(both_maps_know_what_is_hidden),
-        cmocka_unit_test(pixels_of_a_row_are_found),
-        cmocka_unit_test(vertical_baseline_fills_columns),
-        cmocka_unit_test(rows_are_those_of_the_picture),
-        cmocka_unit_test(wide_holes_stay_empty),
-        cmocka_unit_test(coarse_grid_covers_the_picture),
-        cmocka_unit_test(bad_depth_and_padding_are_left_alone),
-        cmocka_unit_test(wrong_cameras_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(NULL, free_rig)

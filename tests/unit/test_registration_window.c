@@ -2,102 +2,61 @@
  * picture to the bit, and few columns of the depth image are looked at. */
 
 #include "camera/register.h"
+#include "registration_rig.h"
 #include "test.h"
 
-#include <stdlib.h>
 #include <string.h>
 
-typedef struct rig {
-    rlf_camera depth, color;
-    float *ray_x, *ray_y, *z;
-    rlf_plane_f32 whole, part;
-    rlf_plane_u8 whole_state, part_state;
-    rlf_registration *registration;
-} rig;
+enum { WIDTH = 640, HEIGHT = 360, PIXELS = WIDTH * HEIGHT };
 
-static rlf_plane_f32 make_plane(const rlf_camera *camera)
-{
-    const size_t pixels = (size_t)camera->width * (size_t)camera->height;
-    return (rlf_plane_f32){calloc(pixels, sizeof(float)), camera->width, camera->height,
-                           camera->width * (ptrdiff_t)sizeof(float)};
-}
+static float part_data[PIXELS];
+static uint8_t part_known[PIXELS];
+static const rlf_plane_f32 part = {part_data, WIDTH, HEIGHT, WIDTH * sizeof(float)};
+static const rlf_plane_u8 part_state = {part_known, WIDTH, HEIGHT, WIDTH};
 
-static rlf_plane_u8 make_state(const rlf_camera *camera)
+static void begin(rlf_pose T, double distortion)
 {
-    const size_t pixels = (size_t)camera->width * (size_t)camera->height;
-    return (rlf_plane_u8){calloc(pixels, 1), camera->width, camera->height, camera->width};
-}
-
-static rig make_rig(rlf_pose T, double distortion)
-{
-    rig g = {
-        .depth = {.width = 320, .height = 240, .fx = 228.0, .fy = 228.0, .cx = 159.5, .cy = 119.5},
-        .color = {.width = 640, .height = 360, .fx = 380.0, .fy = 380.0, .cx = 319.5, .cy = 179.5}};
-    const int32_t count = g.depth.width * g.depth.height;
+    const rlf_camera depth = {
+        .width = 320, .height = 240, .fx = 228.0, .fy = 228.0, .cx = 159.5, .cy = 119.5};
+    rlf_camera color = {
+        .width = WIDTH, .height = HEIGHT, .fx = 380.0, .fy = 380.0, .cx = 319.5, .cy = 179.5};
     if (distortion != 0.0) {
-        g.color.distortion_model = RLF_DISTORTION_PLUMB_BOB;
-        g.color.distortion[0] = distortion;
+        color.distortion_model = RLF_DISTORTION_PLUMB_BOB;
+        color.distortion[0] = distortion;
     }
-    g.ray_x = calloc((size_t)count, sizeof(float));
-    g.ray_y = calloc((size_t)count, sizeof(float));
-    g.z = calloc((size_t)count, sizeof(float));
-    for (int32_t i = 0; i < count; i++) {
-        rlf_vec3 ray;
-        rlf_camera_unproject(&g.depth, i % g.depth.width, i / g.depth.width, &ray);
-        g.ray_x[i] = (float)ray.x;
-        g.ray_y[i] = (float)ray.y;
-    }
-    g.whole = make_plane(&g.color);
-    g.part = make_plane(&g.color);
-    g.whole_state = make_state(&g.color);
-    g.part_state = make_state(&g.color);
-    assert_int_equal(
-        rlf_registration_create(&g.depth, g.ray_x, g.ray_y, &g.color, &T, &g.registration), RLF_OK);
-    return g;
-}
-
-static void free_rig(rig *g)
-{
-    float *const floats[5] = {g->ray_x, g->ray_y, g->z, g->whole.data, g->part.data};
-    for (int i = 0; i < 5; i++) {
-        free(floats[i]);
-    }
-    free(g->whole_state.data);
-    free(g->part_state.data);
-    rlf_registration_destroy(&g->registration);
+    make_rig(depth, color, T);
 }
 
 /* Things of many widths before a wall, and holes; nothing is nearer than `nearest`. */
-static void fill_depth(rig *g, float nearest)
+static void fill_depth(float nearest)
 {
-    for (int32_t i = 0; i < g->depth.width * g->depth.height; i++) {
-        const int32_t x = i % g->depth.width;
-        const int32_t y = i / g->depth.width;
+    for (int32_t i = 0; i < g.depth.width * g.depth.height; i++) {
+        const int32_t x = i % g.depth.width;
+        const int32_t y = i / g.depth.width;
         const int32_t thing = (x / 37 + y / 23) % 5;
         const bool is_hole = rand() % 11 == 0 || (x / 16 + y / 9) % 13 == 0;
-        g->z[i] = is_hole ? 0.0f : (thing == 0 ? nearest : 4.0f) + 0.001f * (float)(x % 7);
+        g.z[i] = is_hole ? 0.0f : (thing == 0 ? nearest : 4.0f) + 0.001f * (float)(x % 7);
     }
-    rlf_registration_apply(g->registration, g->z, &g->whole, &g->whole_state);
+    apply_rig();
 }
 
-static void check_window(rig *g, pixel_rect window, double nearest)
+static void check_window(pixel_rect window, double nearest)
 {
     const size_t count = (size_t)(window.x1 - window.x0);
-    const size_t pixels = (size_t)g->color.width * (size_t)g->color.height;
-    memset(g->part.data, 1, pixels * sizeof(float));
-    memset(g->part_state.data, 77, pixels);
-    registration_apply_window(g->registration, g->z, &window, nearest, &g->part, &g->part_state);
+    const size_t pixels = (size_t)g.color.width * (size_t)g.color.height;
+    memset(part_data, 1, pixels * sizeof(float));
+    memset(part_known, 77, pixels);
+    registration_apply_window(g.registration, g.z, &window, nearest, &part, &part_state);
     for (int32_t y = window.y0; y < window.y1; y++) {
-        assert_memory_equal(rlf_f32_row(&g->part, y) + window.x0,
-                            rlf_f32_row(&g->whole, y) + window.x0, count * sizeof(float));
-        assert_memory_equal(rlf_u8_row(&g->part_state, y) + window.x0,
-                            rlf_u8_row(&g->whole_state, y) + window.x0, count);
+        assert_memory_equal(rlf_f32_row(&part, y) + window.x0, rlf_f32_row(&g.out, y) + window.x0,
+                            count * sizeof(float));
+        assert_memory_equal(rlf_u8_row(&part_state, y) + window.x0,
+                            rlf_u8_row(&g.state, y) + window.x0, count);
     }
 }
 
-static void windows_are_parts_of_the_picture(void **state)
+TEST_CASE(windows_are_parts_of_the_picture)
 {
-    (void)state;
     const rlf_vec3 baselines[4] = {
         {-0.052, 0.003, 0.01}, {0.0, -0.05, 0.0}, {0.02, 0.0, -0.1}, {0.1, 0.0, 0.0}};
     const float nearest[3] = {0.15f, 0.6f, 1.8f};
@@ -105,25 +64,23 @@ static void windows_are_parts_of_the_picture(void **state)
     for (int i = 0; i < 24; i++) {
         const rlf_vec3 axis = rlf_normalize(rlf_vec3_make(1, i % 3, 0.3));
         const rlf_pose T = {baselines[i % 4], rlf_quat_from_axis_angle(axis, 0.02 * (i % 5))};
-        rig g = make_rig(T, i % 2 == 0 ? 0.0 : 0.08);
-        fill_depth(&g, nearest[i / 8]);
+        begin(T, i % 2 == 0 ? 0.0 : 0.08);
+        fill_depth(nearest[i / 8]);
         for (int k = 0; k < 20; k++) {
             const int32_t x0 = rand() % g.color.width;
             const int32_t y0 = rand() % g.color.height;
             const pixel_rect window = {x0, y0, x0 + 1 + rand() % (g.color.width - x0),
                                        y0 + 1 + rand() % (g.color.height - y0)};
-            check_window(&g, window, (double)nearest[i / 8]);
-            check_window(&g, window, 0.0);
+            check_window(window, (double)nearest[i / 8]);
+            check_window(window, 0.0);
         }
-        free_rig(&g);
     }
 }
 
-static void few_columns_are_looked_at(void **state)
+TEST_CASE(few_columns_are_looked_at)
 {
-    (void)state;
     const rlf_pose T = {{-0.052, 0, 0}, rlf_quat_identity()};
-    rig g = make_rig(T, 0.0);
+    begin(T, 0.0);
     int32_t columns[2];
     registration_columns(g.registration, 300, 340, 1.5, columns);
     /* 24 columns, a shift of up to 380 * 0.052 / 1.5 pixels, and their alignment */
@@ -133,14 +90,6 @@ static void few_columns_are_looked_at(void **state)
     assert_int_equal(columns[1], g.depth.width);
     registration_columns(g.registration, 300, 340, 0.01, columns);
     assert_in_range(columns[1] - columns[0], 200, g.depth.width);
-    free_rig(&g);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(windows_are_parts_of_the_picture),
-        cmocka_unit_test(few_columns_are_looked_at),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(NULL, free_rig)

@@ -87,9 +87,8 @@ static void measure(double sigma, double side, power *wall, power *body)
     scene_free(s);
 }
 
-static void bodies_are_as_noisy_as_what_is_around(void **state)
+TEST_CASE(bodies_are_as_noisy_as_what_is_around)
 {
-    (void)state;
     static const double kinds[3][2] = {{2.0, 0.0}, {5.0, 0.3}, {8.0, 0.5}};
     for (int i = 0; i < 3; i++) {
         power wall, body;
@@ -106,18 +105,16 @@ static void bodies_are_as_noisy_as_what_is_around(void **state)
 }
 
 /* A picture that stands still, as one that is shown again and again, gives none. */
-static void no_noise_gives_none(void **state)
+TEST_CASE(no_noise_gives_none)
 {
-    (void)state;
     power wall, body;
     measure(0.0, 0.0, &wall, &body);
     assert_true(wall.square == 0.0 && body.square == 0.0);
 }
 
 /* What moves is no noise. */
-static void a_moving_hand_is_no_noise(void **state)
+TEST_CASE(a_moving_hand_is_no_noise)
 {
-    (void)state;
     render_scene *s = scene_make(3.0);
     grain *g = calloc(1, sizeof(*g));
     const int32_t width = s->rig.color.width;
@@ -166,9 +163,8 @@ static float largest_of_moving(int pixels, int codes)
 
 /* A camera that moves, or whose exposure does, shows changes that are no noise. Bodies may get
  * less, but never twice as much as the room has. */
-static void a_moving_camera_gives_no_more(void **state)
+TEST_CASE(a_moving_camera_gives_no_more)
 {
-    (void)state;
     const float still = largest_of_moving(0, 0);
     assert_true(still > 1.8f && still < 2.4f);
     for (int pixels = 1; pixels <= 16; pixels *= 2) {
@@ -256,9 +252,8 @@ static void measure_edges(double sigma, double *room, double *body)
     scene_free(s);
 }
 
-static void edges_are_as_wide_as_the_room_s(void **state)
+TEST_CASE(edges_are_as_wide_as_the_room_s)
 {
-    (void)state;
     static const double sigmas[4] = {0.3, 0.6, 0.8, 1.0};
     for (int i = 0; i < 4; i++) {
         double room, body;
@@ -267,16 +262,4 @@ static void edges_are_as_wide_as_the_room_s(void **state)
                       sigmas[i], room, body);
         assert_true(body > 0.85 * room && body < 1.2 * room);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bodies_are_as_noisy_as_what_is_around),
-        cmocka_unit_test(no_noise_gives_none),
-        cmocka_unit_test(a_moving_hand_is_no_noise),
-        cmocka_unit_test(a_moving_camera_gives_no_more),
-        cmocka_unit_test(edges_are_as_wide_as_the_room_s),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

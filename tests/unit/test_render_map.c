@@ -58,9 +58,8 @@ static seen_wall *see_wall(const rlf_pose *T_world_view)
 
 /* The view stands 1 m to the right of the camera: bodies are where the world has them, before the
  * wall or behind it, and so is the camera's way. */
-static void room_bodies_and_way_are_where_they_are(void **state)
+TEST_CASE(room_bodies_and_way_are_where_they_are)
 {
-    (void)state;
     const rlf_pose T_world_view = {{1, 0, 0}, rlf_quat_identity()};
     const double f = 540.5, up = -108.5 * 1.5 / f; /* row 161 */
     const rlf_vec3 way[3] = {{0.4, up, 1.5}, {1.4, up, 1.5}, {1.4, up, -9.0}};
@@ -87,9 +86,8 @@ static void room_bodies_and_way_are_where_they_are(void **state)
     scene_free(s);
 }
 
-static void without_a_map_a_line_says_how_to_get_one(void **state)
+TEST_CASE(without_a_map_a_line_says_how_to_get_one)
 {
-    (void)state;
     render_scene *s = scene_make(3.0);
     rlf_compositor_def def = scene_def(s);
     rlf_compositor *compositor = create(&def);
@@ -104,9 +102,8 @@ static void without_a_map_a_line_says_how_to_get_one(void **state)
 }
 
 /* All of a room that is wide and low, or high and narrow, from any side. */
-static void look_shows_the_whole_room(void **state)
+TEST_CASE(look_shows_the_whole_room)
 {
-    (void)state;
     static const rlf_aabb rooms[2] = {{{-3, -1.2, 0.2}, {3, 1.2, 4}}, {{-1, -4, 1}, {1, 1, 2}}};
     static const rlf_orbit orbits[3] = {{0, 0, 0}, {1.0, 0.3, 0}, {-2.5, -0.4, 1.2}};
     render_scene *s = scene_make(3.0);
@@ -140,9 +137,8 @@ static double matte_apart(const rlf_render_output *a, const uint8_t *b)
 
 /* A strip before a body, as a camera sees it that has moved: the silhouette is that of a renderer
  * that never saw it elsewhere. One that stands still has it steady. */
-static void silhouettes_do_not_lag_behind_a_camera(void **state)
+TEST_CASE(silhouettes_do_not_lag_behind_a_camera)
 {
-    (void)state;
     static uint8_t fresh[960 * 540];
     double apart[2];
     for (int moves = 0; moves < 2; moves++) {
@@ -174,15 +170,4 @@ static void silhouettes_do_not_lag_behind_a_camera(void **state)
     print_message("silhouette: %.1f pixels off, camera moved %.1f\n", apart[0], apart[1]);
     assert_true(apart[1] == 0.0);
     assert_true(apart[0] > 1.0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(room_bodies_and_way_are_where_they_are),
-        cmocka_unit_test(without_a_map_a_line_says_how_to_get_one),
-        cmocka_unit_test(look_shows_the_whole_room),
-        cmocka_unit_test(silhouettes_do_not_lag_behind_a_camera),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -70,9 +70,8 @@ static double code_beside(double share, double code, double blue)
 
 /* What u and v are where a pixel's ray meets the tilted square: linear in the square, not in the
  * picture. */
-static void texture_is_right_in_perspective(void **state)
+TEST_CASE(texture_is_right_in_perspective)
 {
-    (void)state;
     render_scene *s = scene_make(4.0);
     rlf_model *model = make_ramp();
     rlf_body_state *body = add_model(s, model, 0.4, rlf_vec3_make(0.05, 0.02, 1.0));
@@ -111,9 +110,8 @@ static void texture_is_right_in_perspective(void **state)
 }
 
 /* A board of squares far smaller than a pixel is grey, and stays so while it moves. */
-static void far_textures_do_not_shimmer(void **state)
+TEST_CASE(far_textures_do_not_shimmer)
 {
-    (void)state;
     render_scene *s = scene_make(4.0);
     rlf_model *model = sample_ball(64);
     rlf_body_state *body = add_model(s, model, 0.05, rlf_vec3_make(0, 0, 3.0));
@@ -136,9 +134,8 @@ static void far_textures_do_not_shimmer(void **state)
 }
 
 /* Its colours times the body's, its outline that of a ball, smooth from face to face. */
-static void a_ball_looks_like_a_ball(void **state)
+TEST_CASE(a_ball_looks_like_a_ball)
 {
-    (void)state;
     render_scene *s = scene_make(3.0);
     rlf_model *model = sample_ball(0);
     rlf_body_state *body = add_model(s, model, 0.3, rlf_vec3_make(0.052, 0, 1.5));
@@ -167,9 +164,8 @@ static void a_ball_looks_like_a_ball(void **state)
 }
 
 /* Cut by the near plane, around the camera, behind it, and far larger than its shape. */
-static void any_place_is_drawn(void **state)
+TEST_CASE(any_place_is_drawn)
 {
-    (void)state;
     static const double z[6] = {0.0, 0.05, 0.31, -1.0, 1.5, 50.0};
     render_scene *s = scene_make(3.0);
     rlf_model *model = sample_ball(8);
@@ -229,9 +225,8 @@ static rlf_model *make_square(rlf_model_part part, rlf_vec3 normal, const uint8_
 }
 
 /* What a texture says in every texel is what the part or its vertices say. */
-static void surfaces_are_as_their_textures(void **state)
+TEST_CASE(surfaces_are_as_their_textures)
 {
-    (void)state;
     static const uint8_t worn[4] = {0, 102, 204, 255}; /* roughness 0.4, metal 0.8 */
     static const uint8_t bent[4] = {191, 64, 218, 255};
     const rlf_vec3 flat = {0, 0, -1};
@@ -265,9 +260,8 @@ static void surfaces_are_as_their_textures(void **state)
     scene_free(s);
 }
 
-static void the_picture_is_exact(void **state)
+TEST_CASE(the_picture_is_exact)
 {
-    (void)state;
     render_scene *s = scene_make(2.0);
     rlf_model *ball = sample_ball(8);
     rlf_model *ramp = make_ramp();
@@ -312,9 +306,8 @@ static rlf_model_def triangle_def(void)
     return def;
 }
 
-static void missing_normals_are_made(void **state)
+TEST_CASE(missing_normals_are_made)
 {
-    (void)state;
     rlf_model_def def = triangle_def();
     rlf_model *model = NULL;
     assert_int_equal(rlf_model_create(&def, &model), RLF_OK);
@@ -336,9 +329,8 @@ static void expect_refused(const rlf_model_def *def, const char *piece)
     }
 }
 
-static void bad_models_are_refused(void **state)
+TEST_CASE(bad_models_are_refused)
 {
-    (void)state;
     rlf_model_def def = triangle_def();
     def.triangle_count = 0;
     expect_refused(&def, "no triangles");
@@ -366,19 +358,4 @@ static void bad_models_are_refused(void **state)
     def.images = &image;
     def.image_count = 1;
     expect_refused(&def, "9000 x 1");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(texture_is_right_in_perspective),
-        cmocka_unit_test(far_textures_do_not_shimmer),
-        cmocka_unit_test(a_ball_looks_like_a_ball),
-        cmocka_unit_test(any_place_is_drawn),
-        cmocka_unit_test(surfaces_are_as_their_textures),
-        cmocka_unit_test(the_picture_is_exact),
-        cmocka_unit_test(missing_normals_are_made),
-        cmocka_unit_test(bad_models_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

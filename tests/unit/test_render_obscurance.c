@@ -32,9 +32,8 @@ static double integrate(double facing, double height)
     return sum / (STEPS * STEPS);
 }
 
-static void the_formula_is_the_integral(void **state)
+TEST_CASE(the_formula_is_the_integral)
 {
-    (void)state;
     for (int i = -10; i <= 10; i++) {
         const float facing = 0.1f * (float)i;
         assert_true(fabsf(obscurance_lost(facing, 0.0f) - 0.5f * (1.0f - facing)) < 1e-6f);
@@ -94,9 +93,8 @@ static obscurance find(const render_scene *s, rlf_shape shape, rlf_vec3 p)
     return found;
 }
 
-static void the_nearest_planes_are_found(void **state)
+TEST_CASE(the_nearest_planes_are_found)
 {
-    (void)state;
     render_scene *s = make_room(0.8f);
     const rlf_shape box = scene_box(0.2);
     obscurance o = find(s, box, on_floor(0.0, 2.0, 0.1));
@@ -118,9 +116,8 @@ static void the_nearest_planes_are_found(void **state)
 
 /* A table top from 1.5 to 2.2 m in the middle of a room: half over its edge a box is near half of
  * it, and beside it near none. */
-static void a_plane_ends_where_it_is_seen_to_end(void **state)
+TEST_CASE(a_plane_ends_where_it_is_seen_to_end)
 {
-    (void)state;
     render_scene *s = scene_make(4.0);
     for (int32_t i = 0; i < s->grid.width * s->grid.height; i++) {
         const float z = s->ray_y[i] > 0.01f ? 0.3f / s->ray_y[i] : 9.0f;
@@ -140,9 +137,8 @@ static void a_plane_ends_where_it_is_seen_to_end(void **state)
 }
 
 /* Behind a person the floor is where it was. */
-static void what_is_hidden_is_known_from_before(void **state)
+TEST_CASE(what_is_hidden_is_known_from_before)
 {
-    (void)state;
     render_scene *s = make_room(NAN);
     scene_add_strip(s, 200, 320, 1.2);
     const obscurance o = find(s, scene_box(0.2), on_floor(0.0, 2.0, 0.1));
@@ -189,9 +185,8 @@ static double left_at(render_scene *s, rlf_shape_type type, rlf_vec3 center, rlf
 }
 
 /* The front of a box gets the light around alone: what is left of it is by the formula. */
-static void a_box_is_darker_the_nearer_to_the_floor(void **state)
+TEST_CASE(a_box_is_darker_the_nearer_to_the_floor)
 {
-    (void)state;
     render_scene *s = make_room(NAN);
     const rlf_vec3 center = on_floor(0.0, 2.0, 0.1);
     double above = 1.0;
@@ -210,9 +205,8 @@ static void a_box_is_darker_the_nearer_to_the_floor(void **state)
     scene_free(s);
 }
 
-static void a_corner_is_darker_than_a_floor(void **state)
+TEST_CASE(a_corner_is_darker_than_a_floor)
 {
-    (void)state;
     render_scene *s = make_room(NAN);
     const rlf_vec3 center = on_floor(0.3, 2.0, 0.1);
     const rlf_vec3 p = {0.39, FLOOR_Y - 0.03, 1.9};
@@ -225,9 +219,8 @@ static void a_corner_is_darker_than_a_floor(void **state)
 }
 
 /* Balls, capsules and cylinders lose most at the floor, and nothing at the top. */
-static void round_bodies_are_dark_below(void **state)
+TEST_CASE(round_bodies_are_dark_below)
 {
-    (void)state;
     static const rlf_shape_type types[3] = {RLF_SHAPE_SPHERE, RLF_SHAPE_CAPSULE,
                                             RLF_SHAPE_CYLINDER};
     render_scene *s = make_room(NAN);
@@ -246,9 +239,8 @@ static void round_bodies_are_dark_below(void **state)
 }
 
 /* Far from everything the picture is the same to the bit. */
-static void a_body_in_the_air_is_as_bright_as_ever(void **state)
+TEST_CASE(a_body_in_the_air_is_as_bright_as_ever)
 {
-    (void)state;
     render_scene *s = make_room(NAN);
     rlf_compositor *with = NULL;
     rlf_compositor *without = NULL;
@@ -259,19 +251,4 @@ static void a_body_in_the_air_is_as_bright_as_ever(void **state)
     rlf_compositor_destroy(&with);
     rlf_compositor_destroy(&without);
     scene_free(s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_formula_is_the_integral),
-        cmocka_unit_test(the_nearest_planes_are_found),
-        cmocka_unit_test(a_plane_ends_where_it_is_seen_to_end),
-        cmocka_unit_test(what_is_hidden_is_known_from_before),
-        cmocka_unit_test(a_box_is_darker_the_nearer_to_the_floor),
-        cmocka_unit_test(a_corner_is_darker_than_a_floor),
-        cmocka_unit_test(round_bodies_are_dark_below),
-        cmocka_unit_test(a_body_in_the_air_is_as_bright_as_ever),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -58,9 +58,8 @@ static rlf_vec3 seen_from(rlf_vec3 p, double yaw, double pitch, double zoom)
                          sin(pitch) * y + cos(pitch) * turned_z + 2.5 * zoom);
 }
 
-static void body_is_where_the_orbit_puts_it(void **state)
+TEST_CASE(body_is_where_the_orbit_puts_it)
 {
-    (void)state;
     static const rlf_orbit orbits[4] = {{0, 0, 0}, {0.6, 0, 1}, {-0.4, 0.5, 1}, {0.3, -0.2, 1.6}};
     const rlf_vec3 at = {0.2, -0.1, 2.2};
     for (int i = 0; i < 4; i++) {
@@ -81,9 +80,8 @@ static void body_is_where_the_orbit_puts_it(void **state)
 }
 
 /* Yaw > 0 looks from further right: what is behind comes out on the right of what is in front. */
-static void points_hide_bodies_behind_them(void **state)
+TEST_CASE(points_hide_bodies_behind_them)
 {
-    (void)state;
     render_scene *s = scene_make(3.5);
     scene_add_strip(s, 236, 276, 1.5);
     scene_add_body(s, scene_box(0.1), rlf_vec3_make(0, 0, 2.5));
@@ -105,9 +103,8 @@ static void points_hide_bodies_behind_them(void **state)
     scene_free(s);
 }
 
-static void contact_is_an_arrow_along_its_normal(void **state)
+TEST_CASE(contact_is_an_arrow_along_its_normal)
 {
-    (void)state;
     render_scene *s = scene_make(2.0);
     const rlf_contact contact = {.other = RLF_CONTACT_BACKGROUND,
                                  .point = {0.252, 0.1, 2.0},
@@ -129,9 +126,8 @@ static void contact_is_an_arrow_along_its_normal(void **state)
     scene_free(s);
 }
 
-static void plot_is_as_high_as_its_values(void **state)
+TEST_CASE(plot_is_as_high_as_its_values)
 {
-    (void)state;
     static const char *const names[2] = {"a", "b"};
     const float values[3 * 2] = {10, 10, 20, 20, (float)NAN, 1e9f};
     const rlf_plot plot = {names, values, 2, 3, 40.0f};
@@ -157,15 +153,4 @@ static void plot_is_as_high_as_its_values(void **state)
     }
     rlf_compositor_destroy(&compositor);
     scene_free(s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(body_is_where_the_orbit_puts_it),
-        cmocka_unit_test(points_hide_bodies_behind_them),
-        cmocka_unit_test(contact_is_an_arrow_along_its_normal),
-        cmocka_unit_test(plot_is_as_high_as_its_values),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

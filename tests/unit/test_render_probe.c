@@ -108,9 +108,8 @@ static double truth(const walls *w, const probe_set *set, rlf_vec3 p, rlf_vec3 n
 }
 
 /* Walls of one light send the same to all sides, wherever the body is. */
-static void even_walls_light_evenly(void **state)
+TEST_CASE(even_walls_light_evenly)
 {
-    (void)state;
     walls w = {{-1.5, -1.2, -0.5}, {1.5, 1.0, 3.0}, {{0}}};
     for (int i = 0; i < 18; i++) {
         w.light[i / 3][i % 3] = 0.3f;
@@ -130,9 +129,8 @@ static void even_walls_light_evenly(void **state)
 
 /* A red wall on the left, a blue one on the right, a dark floor: each side of a body shows what is
  * there. The camera sees under a third of all directions; what is behind it is guessed. */
-static void sides_take_their_walls_light(void **state)
+TEST_CASE(sides_take_their_walls_light)
 {
-    (void)state;
     const walls w = {{-1.0, -1.2, -0.5},
                      {1.0, 0.9, 2.6},
                      {{0.5f, 0.05f, 0.05f},
@@ -176,9 +174,8 @@ static void sides_take_their_walls_light(void **state)
 }
 
 /* Near dark walls there is less of the lamp's light, too. */
-static void a_dark_corner_is_dark(void **state)
+TEST_CASE(a_dark_corner_is_dark)
 {
-    (void)state;
     const walls w = {{-1.2, -1.2, -0.5},
                      {1.2, 0.9, 2.6},
                      {{0.02f, 0.02f, 0.02f},
@@ -205,9 +202,8 @@ static void a_dark_corner_is_dark(void **state)
 }
 
 /* Directions on all sides of an octahedron's folds: the map holds what it was filled with. */
-static void the_map_goes_on_across_its_edges(void **state)
+TEST_CASE(the_map_goes_on_across_its_edges)
 {
-    (void)state;
     walls w = {{-1.5, -1.2, -0.5}, {1.5, 1.0, 3.0}, {{0}}};
     for (int i = 0; i < 18; i++) {
         w.light[i / 3][i % 3] = i / 3 == 5 ? 0.6f : 0.2f;
@@ -227,15 +223,4 @@ static void the_map_goes_on_across_its_edges(void **state)
     probe_set_destroy(set);
     free(set);
     scene_free(s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(even_walls_light_evenly),
-        cmocka_unit_test(sides_take_their_walls_light),
-        cmocka_unit_test(a_dark_corner_is_dark),
-        cmocka_unit_test(the_map_goes_on_across_its_edges),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

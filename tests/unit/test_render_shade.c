@@ -55,9 +55,8 @@ static void check_shadowed(const render_scene *s, rlf_vec3 p, rlf_vec3 to_light)
     assert_true(most < 0.1f);
 }
 
-static void a_table_shades_what_is_under_it(void **state)
+TEST_CASE(a_table_shades_what_is_under_it)
 {
-    (void)state;
     render_scene *s = make_table();
     rlf_vec3 up = {0, -1, 0};
     check_shadowed(s, rlf_vec3_make(0.0, 0.7, 1.85), up);
@@ -77,9 +76,8 @@ static void a_table_shades_what_is_under_it(void **state)
 }
 
 /* Someone 30 cm deep: light that passes half a metre behind his back is not lost. */
-static void a_person_is_no_endless_slab(void **state)
+TEST_CASE(a_person_is_no_endless_slab)
 {
-    (void)state;
     render_scene *s = scene_make(4.0);
     scene_add_strip(s, 220, 280, 2.0);
     for (int32_t i = 0; i < s->grid.width * s->grid.height; i++) {
@@ -95,9 +93,8 @@ static void a_person_is_no_endless_slab(void **state)
 
 /* Light from behind a cupboard that is background: the ray goes in at its front and comes out at
  * its side. Through the wall behind it no light comes. */
-static void a_cupboard_shades_what_is_before_it(void **state)
+TEST_CASE(a_cupboard_shades_what_is_before_it)
 {
-    (void)state;
     render_scene *s = scene_make(4.0);
     for (int32_t i = 0; i < s->grid.width * s->grid.height; i++) {
         bool is_cupboard = i % s->grid.width >= 220 && i % s->grid.width < 300;
@@ -111,9 +108,8 @@ static void a_cupboard_shades_what_is_before_it(void **state)
 }
 
 /* A body whose way to the light is free by the tiles loses none by its rays. */
-static void what_the_tiles_leave_out_is_lit(void **state)
+TEST_CASE(what_the_tiles_leave_out_is_lit)
 {
-    (void)state;
     render_scene *s = make_table();
     scene_add_strip(s, 220, 280, 1.4);
     depth_tiles tiles;
@@ -139,9 +135,8 @@ static void what_the_tiles_leave_out_is_lit(void **state)
     scene_free(s);
 }
 
-static void nothing_known_shades_nothing(void **state)
+TEST_CASE(nothing_known_shades_nothing)
 {
-    (void)state;
     render_scene *s = make_table();
     memset(s->planes[PLANE_DEPTH], 0, sizeof(float) * 512 * 424);
     memset(s->planes[PLANE_BACK], 0, sizeof(float) * 512 * 424);
@@ -174,9 +169,8 @@ static int32_t red_of_ball(render_scene *s, rlf_body_state *ball, rlf_vec3 p, bo
 }
 
 /* The whole renderer: darker under the table, and only there; a setting switches it off. */
-static void a_ball_under_a_table_is_dark(void **state)
+TEST_CASE(a_ball_under_a_table_is_dark)
 {
-    (void)state;
     render_scene *s = make_table();
     rlf_shape shape = {.type = RLF_SHAPE_SPHERE, .radius = 0.12};
     rlf_body_state *ball = scene_add_body(s, shape, rlf_vec3_make(0, 0, 1));
@@ -187,17 +181,4 @@ static void a_ball_under_a_table_is_dark(void **state)
     assert_true(plain > 100 && shaded < plain * 7 / 10 && shaded > plain / 3);
     assert_int_equal(red_of_ball(s, ball, above, true), red_of_ball(s, ball, above, false));
     scene_free(s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_table_shades_what_is_under_it),
-        cmocka_unit_test(a_person_is_no_endless_slab),
-        cmocka_unit_test(a_cupboard_shades_what_is_before_it),
-        cmocka_unit_test(what_the_tiles_leave_out_is_lit),
-        cmocka_unit_test(nothing_known_shades_nothing),
-        cmocka_unit_test(a_ball_under_a_table_is_dark),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -49,9 +49,8 @@ static void lights_at(const caster *c, rlf_vec3 p, float *ambient, float *direct
 
 /* Along the light from the middle of each shape there is full shadow, fading with distance; beside
  * it and towards the light there is none. */
-static void shadow_lies_behind_the_body(void **state)
+TEST_CASE(shadow_lies_behind_the_body)
 {
-    (void)state;
     const rlf_shape shapes[4] = {scene_box(0.2),
                                  {.type = RLF_SHAPE_SPHERE, .radius = 0.1},
                                  {.type = RLF_SHAPE_CAPSULE, .radius = 0.08, .height = 0.2},
@@ -77,9 +76,8 @@ static void shadow_lies_behind_the_body(void **state)
 
 /* Straight above a plane the shadow of a square is a square: its corner is dark where that of the
  * ball inside it is not. */
-static void a_box_has_corners(void **state)
+TEST_CASE(a_box_has_corners)
 {
-    (void)state;
     rlf_vec3 to_light = {0, -1, 0};
     rlf_pose T = {{0, 0, 2.0}, rlf_quat_identity()};
     caster box = make(scene_box(0.4), T, to_light);
@@ -98,9 +96,8 @@ static void a_box_has_corners(void **state)
 
 /* The shadow of an octahedron is what is seen of it from the light, not of a box about it, and so
  * is the light around that it takes. */
-static void a_hull_has_an_outline(void **state)
+TEST_CASE(a_hull_has_an_outline)
 {
-    (void)state;
     static const rlf_vec3 tips[6] = {{-0.2, 0, 0}, {0.2, 0, 0},  {0, -0.2, 0},
                                      {0, 0.2, 0},  {0, 0, -0.2}, {0, 0, 0.2}};
     const rlf_hull hull = {.vertices = tips, .vertex_count = 6};
@@ -120,9 +117,8 @@ static void a_hull_has_an_outline(void **state)
 }
 
 /* Random bodies and points: wherever light is lost, the bounds must have said so. */
-static void bounds_leave_nothing_out(void **state)
+TEST_CASE(bounds_leave_nothing_out)
 {
-    (void)state;
     srand(3);
     rlf_camera k = {.width = 640, .height = 480, .fx = 500, .fy = 500, .cx = 320, .cy = 240};
     int32_t taken = 0;
@@ -164,9 +160,8 @@ static int32_t red_at(const rlf_render_output *out, int32_t u, int32_t v)
 
 /* A plate above a box, the light from above: the box's upper face loses light, more so the nearer
  * the plate is, and none when it is on the other side. */
-static void bodies_shade_each_other(void **state)
+TEST_CASE(bodies_shade_each_other)
 {
-    (void)state;
     render_scene *s = scene_make(4.0);
     rlf_shape plate = {.type = RLF_SHAPE_BOX, .size = {0.5, 0.03, 0.5}};
     scene_add_body(s, scene_box(0.4), rlf_vec3_make(0.052, 0.5, 1.8));
@@ -191,9 +186,8 @@ static void bodies_shade_each_other(void **state)
     scene_free(s);
 }
 
-static void nearest_bodies_are_chosen(void **state)
+TEST_CASE(nearest_bodies_are_chosen)
 {
-    (void)state;
     caster casters[7];
     const double at[7] = {0.0, -0.5, -0.3, 0.6, -0.9, -0.7, -0.4};
     rlf_vec3 l = {0, -1, 0};
@@ -207,14 +201,4 @@ static void nearest_bodies_are_chosen(void **state)
     assert_int_equal(chosen[0], 6);
     assert_int_equal(chosen[1], 1);
     assert_int_equal(chosen[2], 5);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shadow_lies_behind_the_body), cmocka_unit_test(a_box_has_corners),
-        cmocka_unit_test(a_hull_has_an_outline),       cmocka_unit_test(bounds_leave_nothing_out),
-        cmocka_unit_test(bodies_shade_each_other),     cmocka_unit_test(nearest_bodies_are_chosen),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -93,9 +93,8 @@ static double hidden_width(const rlf_render_output *out, int32_t y, double *out_
     return hidden;
 }
 
-static void edges_follow_the_colours(void **state)
+TEST_CASE(edges_follow_the_colours)
 {
-    (void)state;
     for (int32_t grow = -1; grow <= 2; grow++) {
         stage g = make_stage(grow, NULL);
         rlf_render_output out = draw(&g);
@@ -110,9 +109,8 @@ static void edges_follow_the_colours(void **state)
 }
 
 /* To a part of a pixel, whichever side is brighter, and however little. */
-static void mixed_pixels_show_by_their_share_of_light(void **state)
+TEST_CASE(mixed_pixels_show_by_their_share_of_light)
 {
-    (void)state;
     const int values[4][2] = {{200, 60}, {60, 200}, {30, 250}, {120, 160}};
     for (int k = 0; k < 32; k++) {
         stage g = make_stage(0, NULL);
@@ -129,9 +127,8 @@ static void mixed_pixels_show_by_their_share_of_light(void **state)
 }
 
 /* A rim of another shade than the rest of the near side is what its edge is mixed of. */
-static void a_rim_has_its_own_colour(void **state)
+TEST_CASE(a_rim_has_its_own_colour)
 {
-    (void)state;
     stage g = make_stage(0, NULL);
     paint_strip(&g, 200, 60);
     for (int32_t i = 0; i < 960 * 540; i++) {
@@ -148,9 +145,8 @@ static void a_rim_has_its_own_colour(void **state)
 }
 
 /* Far side and near side of one colour: only the depth knows. */
-static void edges_of_one_colour_stay_where_depth_has_them(void **state)
+TEST_CASE(edges_of_one_colour_stay_where_depth_has_them)
 {
-    (void)state;
     stage g = make_stage(0, NULL);
     paint_strip(&g, 120, 120);
     rlf_render_output out = draw(&g);
@@ -169,9 +165,8 @@ static void edges_of_one_colour_stay_where_depth_has_them(void **state)
 
 /* A stripe on the near side, or a slit of light on the far side, is of neither side's colour: the
  * edge does not go there. */
-static void patterns_beside_an_edge_do_not_move_it(void **state)
+TEST_CASE(patterns_beside_an_edge_do_not_move_it)
 {
-    (void)state;
     for (int32_t k = 0; k < 2; k++) {
         stage g = make_stage(0, NULL);
         double from = k == 0 ? g.left + 1.0 : g.left - 4.0;
@@ -189,9 +184,8 @@ static void patterns_beside_an_edge_do_not_move_it(void **state)
     }
 }
 
-static void missing_or_smaller_colour_is_no_trouble(void **state)
+TEST_CASE(missing_or_smaller_colour_is_no_trouble)
 {
-    (void)state;
     stage g = make_stage(1, NULL);
     uint8_t *small = calloc(480 * 270, 4);
     for (int32_t i = 0; i < 480 * 270; i++) {
@@ -211,9 +205,8 @@ static void missing_or_smaller_colour_is_no_trouble(void **state)
 }
 
 /* Ragged depth edges that change from picture to picture, under colours with a little noise. */
-static void still_pictures_do_not_flicker(void **state)
+TEST_CASE(still_pictures_do_not_flicker)
 {
-    (void)state;
     stage g = make_stage(0, NULL);
     uint32_t random = 1;
     uint8_t *last = calloc(960 * 540, 1);
@@ -249,9 +242,8 @@ static void still_pictures_do_not_flicker(void **state)
 }
 
 /* A thing of the room's brightness, but of another tint, comes by: it hides at once. */
-static void what_moves_is_told_by_its_tint(void **state)
+TEST_CASE(what_moves_is_told_by_its_tint)
 {
-    (void)state;
     stage g = make_stage(0, NULL);
     for (int picture = 0; picture < 4; picture++) {
         const double by = picture < 3 ? 40.0 : 0.0;
@@ -278,9 +270,8 @@ static void what_moves_is_told_by_its_tint(void **state)
 }
 
 /* A body that meets a wall fades over the sensor's noise, +- 2 sigma. */
-static void contact_with_a_surface_is_soft(void **state)
+TEST_CASE(contact_with_a_surface_is_soft)
 {
-    (void)state;
     stage g = make_stage(0, NULL);
     g.scene->snapshot.body_count = 0;
     rlf_body_state *body = scene_add_body(g.scene, scene_box(0.4), rlf_vec3_make(0.5, 0, FAR_Z));
@@ -297,9 +288,8 @@ static void contact_with_a_surface_is_soft(void **state)
     free_stage(&g);
 }
 
-static void threads_and_redraws_change_nothing(void **state)
+TEST_CASE(threads_and_redraws_change_nothing)
 {
-    (void)state;
     rlf_pool *pool = NULL;
     assert_int_equal(rlf_pool_create(3, &pool), RLF_OK);
     stage a = make_stage(1, NULL);
@@ -320,21 +310,4 @@ static void threads_and_redraws_change_nothing(void **state)
     free_stage(&a);
     free_stage(&b);
     rlf_pool_destroy(&pool);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(edges_follow_the_colours),
-        cmocka_unit_test(mixed_pixels_show_by_their_share_of_light),
-        cmocka_unit_test(a_rim_has_its_own_colour),
-        cmocka_unit_test(edges_of_one_colour_stay_where_depth_has_them),
-        cmocka_unit_test(patterns_beside_an_edge_do_not_move_it),
-        cmocka_unit_test(missing_or_smaller_colour_is_no_trouble),
-        cmocka_unit_test(still_pictures_do_not_flicker),
-        cmocka_unit_test(what_moves_is_told_by_its_tint),
-        cmocka_unit_test(contact_with_a_surface_is_soft),
-        cmocka_unit_test(threads_and_redraws_change_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -87,9 +87,8 @@ static void turn(rlf_body_state *body, double angle)
     body->T_world_body.q = rlf_quat_from_axis_angle(rlf_normalize(rlf_vec3_make(1, 2, 0.5)), angle);
 }
 
-static void cube_in_front_shows_whole(void **state)
+TEST_CASE(cube_in_front_shows_whole)
 {
-    (void)state;
     render_scene *s = scene_make(2.0);
     turn(scene_add_body(s, scene_box(0.3), rlf_vec3_make(0.1, -0.05, 1.2)), 0.7);
     rlf_compositor_def def = scene_def(s);
@@ -100,9 +99,8 @@ static void cube_in_front_shows_whole(void **state)
     scene_free(s);
 }
 
-static void cube_behind_the_wall_leaves_the_picture_alone(void **state)
+TEST_CASE(cube_behind_the_wall_leaves_the_picture_alone)
 {
-    (void)state;
     render_scene *s = scene_make(1.5);
     turn(scene_add_body(s, scene_box(0.3), rlf_vec3_make(0, 0, 2.2)), 0.4);
     rlf_compositor_def def = scene_def(s);
@@ -122,9 +120,8 @@ static void cube_behind_the_wall_leaves_the_picture_alone(void **state)
     scene_free(s);
 }
 
-static void cube_half_way_in_is_cut_at_the_wall(void **state)
+TEST_CASE(cube_half_way_in_is_cut_at_the_wall)
 {
-    (void)state;
     static const rlf_occlusion modes[2] = {RLF_OCCLUSION_DEPTH, RLF_OCCLUSION_THESIS};
     for (int mode = 0; mode < 2; mode++) {
         render_scene *s = scene_make(2.0);
@@ -146,9 +143,8 @@ static void cube_half_way_in_is_cut_at_the_wall(void **state)
 }
 
 /* A strip between camera and cube: its edges are where the colour camera sees them. */
-static void cube_behind_a_strip_is_hidden_by_it(void **state)
+TEST_CASE(cube_behind_a_strip_is_hidden_by_it)
 {
-    (void)state;
     render_scene *s = scene_make(3.0);
     const double z = 1.2;
     scene_add_strip(s, 240, 270, z);
@@ -176,9 +172,8 @@ static void cube_behind_a_strip_is_hidden_by_it(void **state)
     scene_free(s);
 }
 
-static void nearer_body_wins_in_any_order(void **state)
+TEST_CASE(nearer_body_wins_in_any_order)
 {
-    (void)state;
     for (int mode = 0; mode < 3; mode++) {
         render_scene *s = scene_make(3.0);
         rlf_body_state *red = scene_add_body(s, scene_box(0.2), rlf_vec3_make(0, 0, 1.5));
@@ -226,9 +221,8 @@ static void add_crowd(render_scene *s)
 }
 
 /* One body alone is drawn without depths of samples, two in the same columns with them. */
-static void hidden_body_changes_nothing(void **state)
+TEST_CASE(hidden_body_changes_nothing)
 {
-    (void)state;
     const rlf_vec3 eye = {0.052, 0, 0};
     for (int i = 0; i < 32; i++) {
         const rlf_vec3 p = rlf_vec3_make(0.03 * (i - 16), 0.02 * (i % 7 - 3), 1.1 + 0.05 * i);
@@ -250,9 +244,8 @@ static void hidden_body_changes_nothing(void **state)
     }
 }
 
-static void threads_do_not_change_a_bit(void **state)
+TEST_CASE(threads_do_not_change_a_bit)
 {
-    (void)state;
     render_scene *s = scene_make(2.0);
     scene_add_strip(s, 200, 260, 1.4);
     add_crowd(s);
@@ -279,9 +272,8 @@ static void threads_do_not_change_a_bit(void **state)
     scene_free(s);
 }
 
-static void thesis_layers_give_the_same_matte(void **state)
+TEST_CASE(thesis_layers_give_the_same_matte)
 {
-    (void)state;
     render_scene *s = scene_make(2.0);
     scene_add_strip(s, 200, 300, 1.5);
     for (int i = 0; i < 6; i++) { /* apart in depth: layers cannot cut into each other */
@@ -305,9 +297,8 @@ static void thesis_layers_give_the_same_matte(void **state)
     scene_free(s);
 }
 
-static void later_pictures_allocate_nothing(void **state)
+TEST_CASE(later_pictures_allocate_nothing)
 {
-    (void)state;
     render_scene *s = scene_make(2.0);
     add_crowd(s);
     const char *const lines[2] = {"60 fps", "12 bodies"};
@@ -327,9 +318,8 @@ static void later_pictures_allocate_nothing(void **state)
     scene_free(s);
 }
 
-static void ball_is_round(void **state)
+TEST_CASE(ball_is_round)
 {
-    (void)state;
     render_scene *s = scene_make(3.0);
     rlf_shape ball = {.type = RLF_SHAPE_SPHERE, .radius = 0.2};
     scene_add_body(s, ball, rlf_vec3_make(0.052, 0, 1.5)); /* before the colour camera */
@@ -352,9 +342,8 @@ static void ball_is_round(void **state)
     scene_free(s);
 }
 
-static void hull_of_a_cube_covers_what_the_cube_does(void **state)
+TEST_CASE(hull_of_a_cube_covers_what_the_cube_does)
 {
-    (void)state;
     rlf_vec3 vertices[8];
     for (int i = 0; i < 8; i++) {
         vertices[i] =
@@ -382,9 +371,8 @@ static void hull_of_a_cube_covers_what_the_cube_does(void **state)
     scene_free(s);
 }
 
-static void sees_bodies_from_a_moved_camera(void **state)
+TEST_CASE(sees_bodies_from_a_moved_camera)
 {
-    (void)state;
     render_scene *s = scene_make(2.0);
     rlf_body_state *body = scene_add_body(s, scene_box(0.3), rlf_vec3_make(0.1, 0, 1.3));
     turn(body, 0.7);
@@ -405,9 +393,8 @@ static void sees_bodies_from_a_moved_camera(void **state)
     scene_free(s);
 }
 
-static void distorted_lens_bends_the_bodies_too(void **state)
+TEST_CASE(distorted_lens_bends_the_bodies_too)
 {
-    (void)state;
     render_scene *s = scene_make(3.0);
     s->rig.color.distortion_model = RLF_DISTORTION_PLUMB_BOB;
     s->rig.color.distortion[0] = 0.1;
@@ -433,9 +420,8 @@ static void distorted_lens_bends_the_bodies_too(void **state)
     scene_free(s);
 }
 
-static void coarse_surface_is_cut_by_the_frame_itself(void **state)
+TEST_CASE(coarse_surface_is_cut_by_the_frame_itself)
 {
-    (void)state;
     render_scene *s = scene_make(2.0);
     rlf_camera full = s->grid;
     uint16_t *depth = malloc(sizeof(*depth) * 512 * 424);
@@ -461,9 +447,8 @@ static void coarse_surface_is_cut_by_the_frame_itself(void **state)
     scene_free(s);
 }
 
-static void bodies_where_no_picture_can_show_them(void **state)
+TEST_CASE(bodies_where_no_picture_can_show_them)
 {
-    (void)state;
     render_scene *s = scene_make(2.0);
     scene_add_body(s, scene_box(0.3), rlf_vec3_make(0, 0, -1.0));
     scene_add_body(s, scene_box(0.3), rlf_vec3_make(50, 0, 1.0));
@@ -482,9 +467,8 @@ static void bodies_where_no_picture_can_show_them(void **state)
     scene_free(s);
 }
 
-static void near_plane_cuts_cleanly(void **state)
+TEST_CASE(near_plane_cuts_cleanly)
 {
-    (void)state;
     render_scene *s = scene_make(3.0);
     /* A beam from behind the camera to 2 m before it, below the eye: its top fills the lower
      * middle, down to the picture's bottom, without a hole. */
@@ -511,9 +495,8 @@ static void near_plane_cuts_cleanly(void **state)
     scene_free(s);
 }
 
-static void crowd_beyond_the_first_capacity_is_drawn(void **state)
+TEST_CASE(crowd_beyond_the_first_capacity_is_drawn)
 {
-    (void)state;
     render_scene *s = scene_make(3.0);
     const int32_t count = 1200;
     rlf_body_state *crowd = calloc((size_t)count, sizeof(*crowd));
@@ -546,9 +529,8 @@ static void crowd_beyond_the_first_capacity_is_drawn(void **state)
     scene_free(s);
 }
 
-static void shadow_darkens_the_wall_beside_a_ball(void **state)
+TEST_CASE(shadow_darkens_the_wall_beside_a_ball)
 {
-    (void)state;
     render_scene *s = scene_make(2.0);
     memset(s->color, 200, 960 * 540 * 4);
     rlf_shape ball = {.type = RLF_SHAPE_SPHERE, .radius = 0.1};
@@ -567,29 +549,4 @@ static void shadow_darkens_the_wall_beside_a_ball(void **state)
     assert_int_equal(row[4 * (middle + 200)], 200);
     rlf_compositor_destroy(&compositor);
     scene_free(s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cube_in_front_shows_whole),
-        cmocka_unit_test(cube_behind_the_wall_leaves_the_picture_alone),
-        cmocka_unit_test(cube_half_way_in_is_cut_at_the_wall),
-        cmocka_unit_test(cube_behind_a_strip_is_hidden_by_it),
-        cmocka_unit_test(nearer_body_wins_in_any_order),
-        cmocka_unit_test(hidden_body_changes_nothing),
-        cmocka_unit_test(threads_do_not_change_a_bit),
-        cmocka_unit_test(thesis_layers_give_the_same_matte),
-        cmocka_unit_test(later_pictures_allocate_nothing),
-        cmocka_unit_test(ball_is_round),
-        cmocka_unit_test(hull_of_a_cube_covers_what_the_cube_does),
-        cmocka_unit_test(sees_bodies_from_a_moved_camera),
-        cmocka_unit_test(distorted_lens_bends_the_bodies_too),
-        cmocka_unit_test(coarse_surface_is_cut_by_the_frame_itself),
-        cmocka_unit_test(bodies_where_no_picture_can_show_them),
-        cmocka_unit_test(near_plane_cuts_cleanly),
-        cmocka_unit_test(crowd_beyond_the_first_capacity_is_drawn),
-        cmocka_unit_test(shadow_darkens_the_wall_beside_a_ball),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -41,9 +41,8 @@ static void assert_color(const uint8_t *pixel, int r, int g, int b)
     assert_int_equal(pixel[3], 255);
 }
 
-static void names_go_there_and_back(void **state)
+TEST_CASE(names_go_there_and_back)
 {
-    (void)state;
     for (int i = 0; i < RLF_VIEW_COUNT; i++) {
         rlf_view view = RLF_VIEW_COUNT;
         assert_true(rlf_view_parse(rlf_view_name((rlf_view)i), &view));
@@ -67,9 +66,8 @@ static rlf_legend_row row_of(const rlf_legend *legend, const char *text)
     return legend->rows[0];
 }
 
-static void every_view_has_a_legend(void **state)
+TEST_CASE(every_view_has_a_legend)
 {
-    (void)state;
     rlf_rig rig = {.depth_min_m = 0.5, .depth_max_m = 4.5};
     for (int i = 0; i < RLF_VIEW_COUNT; i++) {
         const rlf_legend legend = rlf_view_legend((rlf_view)i, &rig);
@@ -88,9 +86,8 @@ static void every_view_has_a_legend(void **state)
     (void)row_of(&legend, "0.50 m and more");
 }
 
-static void a_legend_stays_in_its_corner(void **state)
+TEST_CASE(a_legend_stays_in_its_corner)
 {
-    (void)state;
     enum { W = 320, H = 200 };
     static uint8_t data[H][4 * W];
     rlf_rig rig = {.depth_min_m = 0.5, .depth_max_m = 4.5};
@@ -109,9 +106,8 @@ static void a_legend_stays_in_its_corner(void **state)
     assert_memory_equal(&data[199 - 8][4 * 8], &last, 3);
 }
 
-static void near_is_lighter_than_far(void **state)
+TEST_CASE(near_is_lighter_than_far)
 {
-    (void)state;
     int32_t last = 1 << 20;
     for (int i = 0; i <= 100; i++) {
         soft_color c = soft_color_near_far(i / 100.0);
@@ -124,9 +120,8 @@ static void near_is_lighter_than_far(void **state)
     assert_true(warm.r > warm.b && cold.b > cold.r);
 }
 
-static void planes_have_their_colors(void **state)
+TEST_CASE(planes_have_their_colors)
 {
-    (void)state;
     render_scene *s = scene_make(2.5);
     scene_add_strip(s, 200, 300, 1.5);
     int32_t at = 212 * 512 + 250;
@@ -159,9 +154,8 @@ static void planes_have_their_colors(void **state)
     scene_free(s);
 }
 
-static void foreground_is_tinted_and_motion_colored(void **state)
+TEST_CASE(foreground_is_tinted_and_motion_colored)
 {
-    (void)state;
     render_scene *s = scene_make(2.5);
     scene_add_strip(s, 200, 300, 1.5);
     for (int32_t i = 0; i < 512 * 424; i++) {
@@ -188,9 +182,8 @@ static void foreground_is_tinted_and_motion_colored(void **state)
     scene_free(s);
 }
 
-static void regions_have_boxes_and_labels(void **state)
+TEST_CASE(regions_have_boxes_and_labels)
 {
-    (void)state;
     render_scene *s = scene_make(2.5);
     s->region = (rlf_region){.label = 7,
                              .layer = RLF_LAYER_FOREGROUND,
@@ -234,9 +227,8 @@ static void regions_have_boxes_and_labels(void **state)
 
 /* Red in the picture is what the colour camera sees of the strip. 52 mm beside it the depth camera
  * sees wall there: it must not be red. */
-static void what_the_color_camera_does_not_see_has_no_color(void **state)
+TEST_CASE(what_the_color_camera_does_not_see_has_no_color)
 {
-    (void)state;
     render_scene *s = scene_make(2.5);
     scene_add_strip(s, 200, 300, 1.0);
     for (int32_t i = 0; i < 960 * 540; i++) {
@@ -260,9 +252,8 @@ static void what_the_color_camera_does_not_see_has_no_color(void **state)
     scene_free(s);
 }
 
-static void mesh_lines_meet_where_the_points_are(void **state)
+TEST_CASE(mesh_lines_meet_where_the_points_are)
 {
-    (void)state;
     render_scene *s = scene_make(2.0);
     memset(s->color, 0, 960 * 540 * 4);
     scene_add_strip(s, 0, 256, 1.0);
@@ -285,9 +276,8 @@ static void mesh_lines_meet_where_the_points_are(void **state)
     scene_free(s);
 }
 
-static void any_size_is_a_picture(void **state)
+TEST_CASE(any_size_is_a_picture)
 {
-    (void)state;
     static const int32_t sizes[6][2] = {{1, 1},   {3, 7},     {961, 1},
                                         {1, 333}, {333, 222}, {1200, 675}};
     const char *const lines[2] = {"any size", "is a picture \x01\xff"};
@@ -319,9 +309,8 @@ static void any_size_is_a_picture(void **state)
     }
 }
 
-static void picture_without_bodies_is_the_camera_s(void **state)
+TEST_CASE(picture_without_bodies_is_the_camera_s)
 {
-    (void)state;
     render_scene *s = scene_make(2.0);
     s->input.snapshot = NULL;
     rlf_compositor_def def = scene_def(s);
@@ -335,9 +324,8 @@ static void picture_without_bodies_is_the_camera_s(void **state)
     scene_free(s);
 }
 
-static void frame_without_color_is_grey_depth(void **state)
+TEST_CASE(frame_without_color_is_grey_depth)
 {
-    (void)state;
     for (int has_camera = 0; has_camera < 2; has_camera++) {
         render_scene *s = scene_make(2.5);
         s->rig.has_color = has_camera != 0;
@@ -354,9 +342,8 @@ static void frame_without_color_is_grey_depth(void **state)
     }
 }
 
-static void color_of_another_size_is_resized(void **state)
+TEST_CASE(color_of_another_size_is_resized)
 {
-    (void)state;
     render_scene *s = scene_make(2.5);
     uint8_t *half = malloc(480 * 270 * 4);
     for (int32_t i = 0; i < 480 * 270; i++) {
@@ -377,9 +364,8 @@ static void color_of_another_size_is_resized(void **state)
     scene_free(s);
 }
 
-static void a_picture_may_be_8k(void **state)
+TEST_CASE(a_picture_may_be_8k)
 {
-    (void)state;
     render_scene *s = scene_make(2.5);
     scene_add_body(s, scene_box(0.8), rlf_vec3_make(0.03, 0, 1.5));
     rlf_compositor_def def = scene_def(s);
@@ -396,9 +382,8 @@ static void a_picture_may_be_8k(void **state)
     scene_free(s);
 }
 
-static void overlay_draws_its_letters_only_when_enabled(void **state)
+TEST_CASE(overlay_draws_its_letters_only_when_enabled)
 {
-    (void)state;
     render_scene *s = scene_make(2.5);
     const char *const lines[1] = {"|"};
     s->input.overlay = lines;
@@ -423,9 +408,8 @@ static void overlay_draws_its_letters_only_when_enabled(void **state)
     scene_free(s);
 }
 
-static void letters_differ(void **state)
+TEST_CASE(letters_differ)
 {
-    (void)state;
     for (int a = 0; a < 95; a++) {
         for (int b = a + 1; b < 95; b++) {
             assert_true(memcmp(soft_font[a], soft_font[b], 7) != 0);
@@ -436,9 +420,8 @@ static void letters_differ(void **state)
     }
 }
 
-static void wrong_defs_are_refused(void **state)
+TEST_CASE(wrong_defs_are_refused)
 {
-    (void)state;
     render_scene *s = scene_make(2.5);
     const rlf_compositor_def good = scene_def(s);
     rlf_compositor *compositor = NULL;
@@ -461,28 +444,4 @@ static void wrong_defs_are_refused(void **state)
     rlf_compositor_destroy(&compositor);
     rlf_compositor_destroy(NULL);
     scene_free(s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names_go_there_and_back),
-        cmocka_unit_test(every_view_has_a_legend),
-        cmocka_unit_test(a_legend_stays_in_its_corner),
-        cmocka_unit_test(near_is_lighter_than_far),
-        cmocka_unit_test(planes_have_their_colors),
-        cmocka_unit_test(foreground_is_tinted_and_motion_colored),
-        cmocka_unit_test(regions_have_boxes_and_labels),
-        cmocka_unit_test(what_the_color_camera_does_not_see_has_no_color),
-        cmocka_unit_test(mesh_lines_meet_where_the_points_are),
-        cmocka_unit_test(any_size_is_a_picture),
-        cmocka_unit_test(picture_without_bodies_is_the_camera_s),
-        cmocka_unit_test(frame_without_color_is_grey_depth),
-        cmocka_unit_test(color_of_another_size_is_resized),
-        cmocka_unit_test(a_picture_may_be_8k),
-        cmocka_unit_test(overlay_draws_its_letters_only_when_enabled),
-        cmocka_unit_test(letters_differ),
-        cmocka_unit_test(wrong_defs_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

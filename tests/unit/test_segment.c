@@ -1,14 +1,14 @@
 /* Segmentation eq. 4.4, regions, dilation, and what is stored of each region. */
 
-#include "analytic.h"
-#include "surface/steps.h"
+#include "surface/steps.h" /* before the names of painted.h */
+
+#include "painted.h"
 #include "test.h"
 
-/* A stage whose whole picture is segmented: no background, nothing filtered. */
-static rlf_reconstruct *make_stage(int32_t width, int32_t height, rlf_segment_method method,
-                                   bool dilate)
+/* A stage whose whole picture, empty at first, is segmented: no background, nothing filtered. */
+static void begin(int32_t width, int32_t height, rlf_segment_method method, bool dilate)
 {
-    rlf_rig rig = analytic_rig(width, height);
+    see_size(width, height);
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_THESIS, &rig);
     def.scale_factor = 1;
     def.background_method = RLF_BACKGROUND_OFF;
@@ -16,63 +16,48 @@ static rlf_reconstruct *make_stage(int32_t width, int32_t height, rlf_segment_me
     def.segment_tau_m = 0.1;
     def.enable_dilation = dilate;
     def.min_region_points = 1;
-    rlf_reconstruct *stage = NULL;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
-    return stage;
-}
-
-static const rlf_surface *process(rlf_reconstruct *stage, const float *depth, int32_t number)
-{
-    rlf_frame frame = analytic_frame(&stage->def.rig, depth, number);
-    frame.rig = NULL;
-    const rlf_surface *s = NULL;
-    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
-    return s;
+    start_seeing(&def);
+    paint_all(0.0f);
 }
 
 /* Bits by hand: a pixel is 1 when its right and its lower neighbours are within tau. */
-static void bits_are_the_and_of_both_directions(void **state)
+TEST_CASE(bits_are_the_and_of_both_directions)
 {
-    (void)state;
-    const float depth[16] = {1.0f, 1.0f, 2.0f, 2.0f, /* */
-                             1.0f, 1.0f, 2.0f, 2.0f, /* */
-                             1.0f, 1.0f, 1.0f, 1.0f, /* */
-                             1.0f, 0.0f, 1.0f, 1.0f};
+    const float values[16] = {1.0f, 1.0f, 2.0f, 2.0f, /* */
+                              1.0f, 1.0f, 2.0f, 2.0f, /* */
+                              1.0f, 1.0f, 1.0f, 1.0f, /* */
+                              1.0f, 0.0f, 1.0f, 1.0f};
     const uint8_t expected[16] = {1, 0, 1, 1, /* */
                                   1, 0, 0, 0, /* */
                                   1, 0, 1, 1, /* */
                                   0, 0, 1, 1};
     image_grid grid = {.width = 4, .height = 4, .count = 16};
     uint8_t bits[16];
-    rlf_segment_thesis_bits(&grid, 0.1, depth, NULL, bits);
+    rlf_segment_thesis_bits(&grid, 0.1, values, NULL, bits);
     assert_memory_equal(bits, expected, 16);
-    rlf_segment_thesis_bits(&grid, 1.0, depth, NULL, bits); /* |z_i - z_j| <= tau */
+    rlf_segment_thesis_bits(&grid, 1.0, values, NULL, bits); /* |z_i - z_j| <= tau */
     assert_int_equal(bits[1], 1);
     assert_int_equal(bits[9], 0); /* above the hole */
 }
 
 /* Two halves at different depths: each is one region, dilation gives back what eq. 4.4 lost. */
-static void dilation_restores_lost_pixels_and_keeps_labels(void **state)
+TEST_CASE(dilation_restores_lost_pixels_and_keeps_labels)
 {
-    (void)state;
     enum { W = 16, H = 12 };
-    float depth[W * H];
-    for (int i = 0; i < W * H; i++) {
-        depth[i] = i / W < 6 ? 1.0f : 2.0f;
-    }
-    depth[3 * W + 3] = 0.0f;
     int labelled[2];
     int32_t labels[2][W * H];
     for (int dilate = 0; dilate < 2; dilate++) {
-        rlf_reconstruct *stage = make_stage(W, H, RLF_SEGMENT_THESIS, dilate);
-        const rlf_surface *s = process(stage, depth, 0);
+        begin(W, H, RLF_SEGMENT_THESIS, dilate);
+        paint((area){0, W, 0, 6}, 1.0f);
+        paint((area){0, W, 6, H}, 2.0f);
+        depth[3 * W + 3] = 0.0f;
+        const rlf_surface *s = see();
         assert_int_equal(s->region_count, 2);
         memcpy(labels[dilate], s->label, sizeof labels[0]);
         labelled[dilate] = 0;
         for (int i = 0; i < W * H; i++) {
             labelled[dilate] += s->label[i] != 0;
         }
-        rlf_reconstruct_destroy(&stage);
     }
     /* lost: row 5 (16 pixels), the hole's left and upper neighbour */
     assert_int_equal(labelled[0], W * H - 1 - W - 2);
@@ -88,28 +73,22 @@ static void dilation_restores_lost_pixels_and_keeps_labels(void **state)
 }
 
 /* Regions are 4-connected: two squares that touch at a corner stay apart. */
-static void regions_are_4_connected(void **state)
+TEST_CASE(regions_are_4_connected)
 {
-    (void)state;
     enum { W = 12, H = 12 };
-    float depth[W * H];
-    for (int i = 0; i < W * H; i++) {
-        int x = i % W, y = i / W;
-        depth[i] = (x < 6) == (y < 6) ? 1.0f : 0.0f;
-    }
-    rlf_reconstruct *stage = make_stage(W, H, RLF_SEGMENT_NOISE, false);
-    const rlf_surface *s = process(stage, depth, 0);
+    begin(W, H, RLF_SEGMENT_NOISE, false);
+    paint((area){0, 6, 0, 6}, 1.0f);
+    paint((area){6, W, 6, H}, 1.0f);
+    const rlf_surface *s = see();
     assert_int_equal(s->region_count, 2);
     assert_int_not_equal(s->label[0], s->label[W * H - 1]);
-    rlf_reconstruct_destroy(&stage);
 }
 
 /* A spiral is one component, however often its arms meet late. */
-static void a_spiral_is_one_region(void **state)
+TEST_CASE(a_spiral_is_one_region)
 {
-    (void)state;
     enum { W = 41, H = 41 };
-    static float depth[W * H];
+    begin(W, H, RLF_SEGMENT_NOISE, false);
     int x = 0, y = 0, dx = 1, dy = 0, length = W - 1, count = 1;
     depth[0] = 1.0f;
     for (int leg = 0; length > 0; leg++) {
@@ -124,8 +103,7 @@ static void a_spiral_is_one_region(void **state)
         dy = turn;
         length -= leg >= 2 && leg % 2 == 0 ? 2 : 0;
     }
-    rlf_reconstruct *stage = make_stage(W, H, RLF_SEGMENT_NOISE, false);
-    const rlf_surface *s = process(stage, depth, 0);
+    const rlf_surface *s = see();
     assert_int_equal(s->region_count, 1);
     int valid = 0;
     for (int i = 0; i < W * H; i++) {
@@ -133,21 +111,16 @@ static void a_spiral_is_one_region(void **state)
     }
     assert_int_equal(s->regions[0].point_count, valid);
     assert_in_range(valid, count / 2, count);
-    rlf_reconstruct_destroy(&stage);
 }
 
-static void region_holds_points_box_rectangle_and_mask(void **state)
+TEST_CASE(region_holds_points_box_rectangle_and_mask)
 {
-    (void)state;
     enum { W = 40, H = 30 };
-    static float depth[W * H];
+    begin(W, H, RLF_SEGMENT_NOISE, false);
     for (int i = 0; i < W * H; i++) {
-        int x = i % W, y = i / W;
-        bool object = x >= 10 && x < 25 && y >= 8 && y < 20;
-        depth[i] = object ? 1.0f + 0.002f * (float)x : 3.0f;
+        depth[i] = is_in((area){10, 25, 8, 20}, i) ? 1.0f + 0.002f * (float)(i % W) : 3.0f;
     }
-    rlf_reconstruct *stage = make_stage(W, H, RLF_SEGMENT_NOISE, false);
-    const rlf_surface *s = process(stage, depth, 0);
+    const rlf_surface *s = see();
     assert_int_equal(s->region_count, 2);
     int32_t label = s->label[10 * W + 12];
     const rlf_region *r = s->regions[0].label == label ? &s->regions[0] : &s->regions[1];
@@ -170,42 +143,32 @@ static void region_holds_points_box_rectangle_and_mask(void **state)
     rlf_vec3 mean = rlf_scale(sum, 1.0 / r->point_count);
     assert_true(rlf_length(rlf_sub(mean, r->centroid)) < 1e-9);
     assert_true(r->plane_residual >= 0.0 && r->plane_residual < 1e-3);
-    rlf_reconstruct_destroy(&stage);
 }
 
 /* A sphere's visible cap is no plane: its residual is far above a plane's. */
-static void plane_residual_tells_flat_from_round(void **state)
+TEST_CASE(plane_residual_tells_flat_from_round)
 {
-    (void)state;
     enum { W = 64, H = 64 };
-    static float depth[W * H];
-    rlf_reconstruct *stage = make_stage(W, H, RLF_SEGMENT_OFF, false);
+    begin(W, H, RLF_SEGMENT_OFF, false);
     for (int i = 0; i < W * H; i++) {
         depth[i] = (float)sphere_depth(rlf_vec3_make(0, 0, 1.5), 0.3, stage->grid.ray_x[i],
                                        stage->grid.ray_y[i]);
     }
-    const rlf_surface *s = process(stage, depth, 0);
+    const rlf_surface *s = see();
     assert_int_equal(s->region_count, 1);
     assert_true(s->regions[0].plane_residual > 0.03);
-    rlf_reconstruct_destroy(&stage);
 }
 
-static void labels_stay_while_a_thing_moves(void **state)
+TEST_CASE(labels_stay_while_a_thing_moves)
 {
-    (void)state;
     enum { W = 80, H = 40 };
-    static float depth[W * H];
-    rlf_reconstruct *stage = make_stage(W, H, RLF_SEGMENT_NOISE, false);
+    begin(W, H, RLF_SEGMENT_NOISE, false);
     int32_t first[2] = {0, 0};
     for (int t = 0; t < 10; t++) {
-        memset(depth, 0, sizeof depth);
-        for (int i = 0; i < W * H; i++) {
-            int x = i % W, y = i / W;
-            bool a = x >= 4 + 3 * t && x < 16 + 3 * t && y < 15;
-            bool b = x >= 60 - 4 * t && x < 74 - 4 * t && y > 20;
-            depth[i] = a ? 1.0f : (b ? 2.0f : 0.0f);
-        }
-        const rlf_surface *s = process(stage, depth, t);
+        paint_all(0.0f);
+        paint((area){60 - 4 * t, 74 - 4 * t, 21, H}, 2.0f);
+        paint((area){4 + 3 * t, 16 + 3 * t, 0, 15}, 1.0f);
+        const rlf_surface *s = see();
         assert_int_equal(s->region_count, 2);
         int32_t now[2] = {s->label[5 * W + 6 + 3 * t], s->label[25 * W + 62 - 4 * t]};
         assert_true(now[0] > 0 && now[1] > 0 && now[0] != now[1]);
@@ -215,48 +178,37 @@ static void labels_stay_while_a_thing_moves(void **state)
         }
         assert_true(s->regions[0].age_ns == (int64_t)t * 33333333);
     }
-    rlf_reconstruct_destroy(&stage);
 }
 
-static void too_many_regions_keep_the_largest(void **state)
+TEST_CASE(too_many_regions_keep_the_largest)
 {
-    (void)state;
     enum { W = 60, H = 40 };
-    static float depth[W * H];
-    rlf_rig rig = analytic_rig(W, H);
-    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
+    rlf_reconstruct_def def = see_size(W, H);
     def.background_method = RLF_BACKGROUND_OFF;
     def.enable_flying_removal = def.enable_fill = false;
     def.region_capacity = 3;
     def.min_region_points = 1;
-    rlf_reconstruct *stage;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    start_seeing(&def);
+    paint_all(0.0f);
     for (int k = 0; k < 6; k++) { /* bars of 2, 3, ... 7 rows with a gap */
-        for (int y = 0; y < k + 2; y++) {
-            for (int x = 10 * k; x < 10 * k + 8; x++) {
-                depth[y * W + x] = 1.0f;
-            }
-        }
+        paint((area){10 * k, 10 * k + 8, 0, k + 2}, 1.0f);
     }
-    const rlf_surface *s = process(stage, depth, 0);
+    const rlf_surface *s = see();
     assert_int_equal(s->region_count, 3);
     for (int k = 0; k < 6; k++) {
         assert_true((s->label[10 * k] != 0) == (k >= 3));
     }
-    rlf_reconstruct_destroy(&stage);
 }
 
 /* A plate of 0.6 x 0.2 m that is turned in the picture and leans back. */
-static void oriented_box_fits_a_leaning_plate(void **state)
+TEST_CASE(oriented_box_fits_a_leaning_plate)
 {
-    (void)state;
     enum { WIDTH = 256, HEIGHT = 212 };
-    static float depth[WIDTH * HEIGHT];
+    begin(WIDTH, HEIGHT, RLF_SEGMENT_NOISE, false);
     const rlf_vec3 normal = {0.0, 0.6, -0.8}, centre = {0.1, -0.05, 2.0};
     const rlf_vec3 across = {1.0, 0.0, 0.0}, up = {0.0, 0.8, 0.6};
     const rlf_vec3 longest = rlf_add(rlf_scale(across, 0.8), rlf_scale(up, 0.6));
     const rlf_vec3 middle = rlf_cross(normal, longest);
-    rlf_reconstruct *stage = make_stage(WIDTH, HEIGHT, RLF_SEGMENT_NOISE, false);
     const rlf_camera *c = &stage->def.rig.depth;
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         double x = (i % WIDTH - c->cx) / c->fx, y = (i / WIDTH - c->cy) / c->fy;
@@ -265,7 +217,7 @@ static void oriented_box_fits_a_leaning_plate(void **state)
         double a = rlf_dot(p, longest), b = rlf_dot(p, middle);
         depth[i] = rlf_max(a, -a) < 0.3 && rlf_max(b, -b) < 0.1 ? (float)z : 0.0f;
     }
-    const rlf_surface *s = process(stage, depth, 0);
+    const rlf_surface *s = see();
     assert_int_equal(s->region_count, 1);
     const rlf_region *region = &s->regions[0];
     rlf_vec3 x = rlf_rotate(region->oriented_pose.q, rlf_vec3_make(1, 0, 0));
@@ -276,21 +228,6 @@ static void oriented_box_fits_a_leaning_plate(void **state)
     assert_float_equal(region->oriented_half.x, 0.3, 0.02);
     assert_float_equal(region->oriented_half.y, 0.1, 0.02);
     assert_true(region->oriented_half.z < 1e-3 && region->plane_residual < 1e-3);
-    rlf_reconstruct_destroy(&stage);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bits_are_the_and_of_both_directions),
-        cmocka_unit_test(dilation_restores_lost_pixels_and_keeps_labels),
-        cmocka_unit_test(regions_are_4_connected),
-        cmocka_unit_test(a_spiral_is_one_region),
-        cmocka_unit_test(region_holds_points_box_rectangle_and_mask),
-        cmocka_unit_test(plane_residual_tells_flat_from_round),
-        cmocka_unit_test(labels_stay_while_a_thing_moves),
-        cmocka_unit_test(too_many_regions_keep_the_largest),
-        cmocka_unit_test(oriented_box_fits_a_leaning_plate),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(NULL, stop_seeing)

@@ -1,6 +1,7 @@
 /* Things on a table are regions of their own, those that touch as well, and stay what they are. */
 
 #include "seen_view.h"
+#include "created.h"
 #include "test.h"
 
 #include <math.h>
@@ -30,17 +31,12 @@ typedef struct scene {
 /* Nearest way t along from + t way into a box; 0 = past it. */
 static double hit_box(const box *b, rlf_vec3 from, rlf_vec3 way)
 {
-    double c = cos(b->yaw), s = sin(b->yaw), near = 0.0, far = 1e9;
-    rlf_vec3 d = rlf_sub(from, b->centre);
-    const double p[3] = {c * d.x - s * d.z, d.y, s * d.x + c * d.z};
-    const double w[3] = {c * way.x - s * way.z, way.y, s * way.x + c * way.z};
-    const double half[3] = {b->half.x, b->half.y, b->half.z};
-    for (int k = 0; k < 3; k++) {
-        double t0 = (-half[k] - p[k]) / w[k], t1 = (half[k] - p[k]) / w[k];
-        near = rlf_max(near, rlf_min(t0, t1));
-        far = rlf_min(far, rlf_max(t0, t1));
-    }
-    return near < far ? near : 0.0;
+    double c = cos(b->yaw), s = sin(b->yaw), near, far;
+    const rlf_aabb upright = {rlf_neg(b->half), b->half};
+    const rlf_vec3 d = rlf_sub(from, b->centre);
+    const rlf_vec3 p = {c * d.x - s * d.z, d.y, s * d.x + c * d.z};
+    const rlf_vec3 w = {c * way.x - s * way.z, way.y, s * way.x + c * way.z};
+    return box_ray(&upright, p, w, &near, &far) ? near : 0.0;
 }
 
 static double hit_can(rlf_vec3 from, rlf_vec3 way)
@@ -56,21 +52,21 @@ static double hit_can(rlf_vec3 from, rlf_vec3 way)
     return side > 0.0 && from.y + side * way.y < can.y ? side : 0.0;
 }
 
-/* The near or the far side of a sphere; 0 = past it. */
-static double hit_sphere(rlf_vec3 centre, double radius, rlf_vec3 from, rlf_vec3 way, bool is_far)
+static double hit_ball(rlf_vec3 from, rlf_vec3 way)
 {
-    rlf_vec3 d = rlf_sub(from, centre);
-    double a = rlf_dot(way, way), b = rlf_dot(d, way);
-    double root = b * b - a * (rlf_dot(d, d) - radius * radius);
-    return root > 0.0 ? (-b + (is_far ? sqrt(root) : -sqrt(root))) / a : 0.0;
+    double near, far;
+    return sphere_ray(ball, ball_radius, from, way, &near, &far) ? near : 0.0;
 }
 
 static double hit_bowl(rlf_vec3 from, rlf_vec3 way)
 {
-    for (int side = 0; side < 2; side++) {
-        double t = hit_sphere(bowl, bowl_radius, from, way, side == 1);
-        if (t > 0.0 && from.y + t * way.y < bowl.y) {
-            return t;
+    double sides[2];
+    if (!sphere_ray(bowl, bowl_radius, from, way, &sides[0], &sides[1])) {
+        return 0.0;
+    }
+    for (int k = 0; k < 2; k++) {
+        if (sides[k] > 0.0 && from.y + sides[k] * way.y < bowl.y) {
+            return sides[k];
         }
     }
     return 0.0;
@@ -88,7 +84,7 @@ static void draw(scene *s)
                                   hit_box(&boxes[0], eye, way),
                                   hit_box(&boxes[1], eye, way),
                                   hit_can(eye, way),
-                                  hit_sphere(ball, ball_radius, eye, way, false),
+                                  hit_ball(eye, way),
                                   hit_bowl(eye, way)};
         s->view.truth[i] = 0.0f;
         s->truth[i] = 0;
@@ -130,7 +126,7 @@ static rlf_reconstruct *make_stage(const scene *s, rlf_pool *pool)
 {
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &s->view.rig);
     def.pool = pool;
-    return seen_view_stage(&def);
+    return stage_of(&def);
 }
 
 /* Overlap of a thing with the region that fits it best, over their union; *out_label is its. */
@@ -167,7 +163,7 @@ static void check_things(const scene *s, const rlf_surface *surface, double leas
     }
 }
 
-static void things_are_regions(void **state)
+TEST_CASE(things_are_regions)
 {
     scene *s = *state;
     rlf_reconstruct *stage = make_stage(s, NULL);
@@ -182,7 +178,7 @@ static void things_are_regions(void **state)
 }
 
 /* Only what is beside another thing may go over to it. */
-static void labels_stay(void **state)
+TEST_CASE(labels_stay)
 {
     static int32_t before[COUNT];
     scene *s = *state;
@@ -203,12 +199,11 @@ static void labels_stay(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
-static void threads_make_no_difference(void **state)
+TEST_CASE(threads_make_no_difference)
 {
     static int32_t label[COUNT];
     scene *s = *state;
-    rlf_pool *pool = NULL;
-    assert_int_equal(rlf_pool_create(3, &pool), RLF_OK);
+    rlf_pool *pool = pool_of(3);
     rlf_reconstruct *stage[2] = {make_stage(s, NULL), make_stage(s, pool)};
     for (int f = 0; f < 8; f++) {
         see(s);
@@ -220,7 +215,7 @@ static void threads_make_no_difference(void **state)
     rlf_pool_destroy(&pool);
 }
 
-static void a_reset_forgets(void **state)
+TEST_CASE(a_reset_forgets)
 {
     static int32_t label[COUNT];
     scene *s = *state;
@@ -245,13 +240,5 @@ static void a_reset_forgets(void **state)
     rlf_reconstruct_destroy(&stage[1]);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(things_are_regions, begin_noise),
-        cmocka_unit_test_setup(labels_stay, begin_noise),
-        cmocka_unit_test_setup(threads_make_no_difference, begin_noise),
-        cmocka_unit_test_setup(a_reset_forgets, begin_noise),
-    };
-    return cmocka_run_group_tests(tests, set_up, seen_view_destroy);
-}
+TEST_GROUP(set_up, seen_view_destroy)
+TEST_EACH(begin_noise, NULL)

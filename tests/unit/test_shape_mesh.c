@@ -25,9 +25,8 @@ static rlf_vec3 corner(const shape_mesh_range *range, int32_t i, const shape_mes
     return body_point(&mesh.vertices[mesh.indices[range->first_index + i]], s);
 }
 
-static void test_volumes(void **state)
+TEST_CASE(test_volumes)
 {
-    (void)state;
     const double r = 0.1;
     const double expected[4] = {0.2 * 0.3 * 0.5, 4.0 / 3.0 * RLF_PI * 0.25 * 0.25 * 0.25,
                                 4.0 / 3.0 * RLF_PI * r * r * r + RLF_PI * r * r * 0.4,
@@ -56,9 +55,8 @@ static bool is_same(rlf_vec3 a, rlf_vec3 b)
     return rlf_dot(d, d) < 1e-14;
 }
 
-static void test_closed(void **state)
+TEST_CASE(test_closed)
 {
-    (void)state;
     for (int t = 0; t < 4; t++) {
         const shape_mesh_range *range = &mesh.range[t];
         shape_mesh_scale s = shape_mesh_scale_of(&shapes[t]);
@@ -75,9 +73,8 @@ static void test_closed(void **state)
     }
 }
 
-static void test_normals(void **state)
+TEST_CASE(test_normals)
 {
-    (void)state;
     for (int32_t i = 0; i < mesh.vertex_count; i++) {
         const float *n = mesh.vertices[i].normal;
         assert_float_equal(n[0] * n[0] + n[1] * n[1] + n[2] * n[2], 1.0f, 1e-6f);
@@ -99,9 +96,8 @@ static void test_normals(void **state)
     }
 }
 
-static void test_hull_triangle(void **state)
+TEST_CASE(test_hull_triangle)
 {
-    (void)state;
     const rlf_vec3 vertices[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}};
     const int32_t triangles[6] = {0, 1, 2, 0, 1, 3};
     const rlf_hull hull = {vertices, 4, triangles, 2};
@@ -113,9 +109,8 @@ static void test_hull_triangle(void **state)
     assert_false(shape_mesh_hull_triangle(&hull, 1, 2.0, v)); /* three points on a line */
 }
 
-static void test_texture_levels(void **state)
+TEST_CASE(test_texture_levels)
 {
-    (void)state;
     static uint8_t texture[BODY_TEXTURE_BYTES];
     for (int kind = 0; kind < BODY_TEXTURE_KINDS; kind++) {
         body_texture_fill((body_texture_kind)kind, texture);
@@ -137,9 +132,8 @@ static void test_texture_levels(void **state)
     }
 }
 
-static void test_texture_level_choice(void **state)
+TEST_CASE(test_texture_level_choice)
 {
-    (void)state;
     /* A ball of 0.5 m across at 1 m, focal length 256: 128 pixels, as many as level 0 has. */
     const rlf_shape ball = {RLF_SHAPE_SPHERE, {0, 0, 0}, 0.25, 0, NULL};
     assert_int_equal(body_texture_level_of(&ball, 1.0, 256.0), 0);
@@ -148,13 +142,11 @@ static void test_texture_level_choice(void **state)
     assert_int_equal(body_texture_level_of(&ball, -1.0, 256.0), 0);
 }
 
-int main(void)
+static int build(void **state)
 {
+    (void)state;
     shape_mesh_set_build(&mesh);
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_volumes),        cmocka_unit_test(test_closed),
-        cmocka_unit_test(test_normals),        cmocka_unit_test(test_hull_triangle),
-        cmocka_unit_test(test_texture_levels), cmocka_unit_test(test_texture_level_choice),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return 0;
 }
+
+TEST_GROUP(build, NULL)

@@ -1,5 +1,6 @@
 /* The source object: a caller's methods behind rlf_source. */
 
+#include "created.h"
 #include "relief/source.h"
 #include "test.h"
 
@@ -48,9 +49,8 @@ static rlf_source_info make_info(void)
     return info;
 }
 
-static void frames_come_in_order_with_the_rig(void **state)
+TEST_CASE(frames_come_in_order_with_the_rig)
 {
-    (void)state;
     counter c = {.limit = 3};
     rlf_source_info info = make_info();
     rlf_source_methods methods = {.next = counter_next,
@@ -64,7 +64,7 @@ static void frames_come_in_order_with_the_rig(void **state)
     for (int round = 0; round < 2; round++) {
         rlf_frame frame;
         for (uint64_t i = 0; i < 3; i++) {
-            assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+            frame = frame_of(source);
             assert_int_equal(frame.sequence, i);
             assert_ptr_equal(frame.rig, &rlf_source_get_info(source)->rig);
             assert_ptr_equal(frame.depth_u16, c.depth);
@@ -82,9 +82,8 @@ static void frames_come_in_order_with_the_rig(void **state)
     rlf_source_destroy(NULL);
 }
 
-static void optional_methods_may_be_missing(void **state)
+TEST_CASE(optional_methods_may_be_missing)
 {
-    (void)state;
     counter c = {.limit = 3};
     rlf_source_info info = make_info();
     rlf_source_methods methods = {.next = counter_next};
@@ -113,9 +112,8 @@ static rlf_result stamped_next(void *self, rlf_frame *out)
 }
 
 /* Any two times can be subtracted. */
-static void times_that_cannot_be_subtracted_are_refused(void **state)
+TEST_CASE(times_that_cannot_be_subtracted_are_refused)
 {
-    (void)state;
     static const int64_t bad[] = {INT64_MIN, INT64_MAX, RLF_TIME_MAX_NS + 1, -RLF_TIME_MAX_NS - 1};
     static const char *const names[3] = {"time_ns", "color_time_ns", "host_time_ns"};
     rlf_source_info info = make_info();
@@ -125,7 +123,7 @@ static void times_that_cannot_be_subtracted_are_refused(void **state)
         rlf_source *source = NULL;
         rlf_frame frame;
         assert_int_equal(rlf_source_create_custom(&methods, &info, &s, &source), RLF_OK);
-        assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+        frame = frame_of(source);
         s.times[i % 3] = bad[i / 3];
         assert_int_equal(rlf_source_next(source, &frame), RLF_ERROR_INVALID);
         assert_non_null(strstr(rlf_error_text(), "counter: frame 1: "));
@@ -135,9 +133,8 @@ static void times_that_cannot_be_subtracted_are_refused(void **state)
     }
 }
 
-static void a_bad_camera_is_named_and_self_is_kept(void **state)
+TEST_CASE(a_bad_camera_is_named_and_self_is_kept)
 {
-    (void)state;
     counter c = {.limit = 3};
     rlf_source_info info = make_info();
     rlf_source_methods methods = {.next = counter_next, .destroy = counter_destroy};
@@ -174,17 +171,15 @@ static void counter_observe(void *self, rlf_frame_fn fn, void *context)
 
 /* A sensor that measures 24 mm too far: frames come without them, missing stays missing, and the
  * device's own plane stays as it is. */
-static void the_depth_offset_is_taken_away(void **state)
+TEST_CASE(the_depth_offset_is_taken_away)
 {
-    (void)state;
     counter c = {.limit = 3, .depth = {1000, 0, 10, 65535}};
     rlf_source_info info = make_info();
     info.rig.depth_offset_m = 0.024;
     rlf_source_methods methods = {.next = counter_next, .observe = counter_observe};
     rlf_source *source = NULL;
     assert_int_equal(rlf_source_create_custom(&methods, &info, &c, &source), RLF_OK);
-    rlf_frame frame;
-    assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+    rlf_frame frame = frame_of(source);
     const uint16_t expected[4] = {976, 0, 0, 65511};
     assert_memory_equal(frame.depth_u16, expected, sizeof(expected));
     assert_int_equal(c.depth[0], 1000);
@@ -204,9 +199,8 @@ static rlf_result bad_next(void *self, rlf_frame *out)
 }
 
 /* What the pipeline, a recorder or a renderer would read past its end. */
-static void a_frame_that_is_none_is_not_given(void **state)
+TEST_CASE(a_frame_that_is_none_is_not_given)
 {
-    (void)state;
     static const uint16_t depth[4];
     static uint8_t color[4 * 4];
     rlf_source_info info = make_info();
@@ -233,17 +227,4 @@ static void a_frame_that_is_none_is_not_given(void **state)
         assert_int_equal(rlf_source_next(source, &frame), i == 0 ? RLF_OK : RLF_ERROR_INVALID);
         rlf_source_destroy(&source);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(frames_come_in_order_with_the_rig),
-        cmocka_unit_test(the_depth_offset_is_taken_away),
-        cmocka_unit_test(optional_methods_may_be_missing),
-        cmocka_unit_test(times_that_cannot_be_subtracted_are_refused),
-        cmocka_unit_test(a_frame_that_is_none_is_not_given),
-        cmocka_unit_test(a_bad_camera_is_named_and_self_is_kept),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /* Depth out of the range, mostly, is told once: its unit is wrong. */
 
+#include "created.h"
 #include "relief/source.h"
 #include "test.h"
 
@@ -57,9 +58,8 @@ static void close_source(rlf_source *source)
 
 static void read_frames(rlf_source *source, int count)
 {
-    rlf_frame frame;
     for (int i = 0; i < count; i++) {
-        assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+        frame_of(source);
     }
 }
 
@@ -71,9 +71,8 @@ static void fill(uint16_t value)
     }
 }
 
-static void a_room_is_not_told(void **state)
+TEST_CASE(a_room_is_not_told)
 {
-    (void)state;
     rlf_source *source = open_source();
     fill(2000);
     for (int i = 0; i < COUNT / 3; i++) {
@@ -86,9 +85,8 @@ static void a_room_is_not_told(void **state)
     close_source(source);
 }
 
-static void a_wrong_unit_is_told_once_when_there_is_depth(void **state)
+TEST_CASE(a_wrong_unit_is_told_once_when_there_is_depth)
 {
-    (void)state;
     rlf_source *source = open_source();
     fill(0);
     read_frames(source, 3);
@@ -115,9 +113,8 @@ static void a_wrong_unit_is_told_once_when_there_is_depth(void **state)
     close_source(source);
 }
 
-static void the_range_can_be_another(void **state)
+TEST_CASE(the_range_can_be_another)
 {
-    (void)state;
     rlf_source *source = open_source();
     rlf_source_expect_range(source, 0.5, 30.0);
     fill(20000);
@@ -129,14 +126,4 @@ static void the_range_can_be_another(void **state)
     read_frames(source, 1);
     assert_int_equal(lines, 0);
     close_source(source);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_room_is_not_told),
-        cmocka_unit_test(a_wrong_unit_is_told_once_when_there_is_depth),
-        cmocka_unit_test(the_range_can_be_another),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,9 +30,8 @@ static bool is_apart(const uint8_t *a, const uint8_t *b)
     return a + COUNT <= b || b + COUNT <= a;
 }
 
-static void owners_share_and_planes_do_not(void **state)
+TEST_CASE(owners_share_and_planes_do_not)
 {
-    (void)state;
     planes p = {.rounds = 0};
     assert_true(arena_create(&p.arena, take_all, &p));
     assert_int_equal(p.rounds, 2); /* to count, to hand out */
@@ -51,9 +50,8 @@ static void owners_share_and_planes_do_not(void **state)
     arena_destroy(&p.arena);
 }
 
-static void what_is_lent_is_spoiled_on_demand(void **state)
+TEST_CASE(what_is_lent_is_spoiled_on_demand)
 {
-    (void)state;
     planes p = {.rounds = 0};
     assert_true(arena_create(&p.arena, take_all, &p));
     arena_spoil(&p.arena);
@@ -67,13 +65,4 @@ static void what_is_lent_is_spoiled_on_demand(void **state)
         assert_true(p.taken[0][i] == 0 && p.taken[1][i] == 0);
     }
     arena_destroy(&p.arena);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(owners_share_and_planes_do_not),
-        cmocka_unit_test(what_is_lent_is_spoiled_on_demand),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* Dropped pixels at the outline of a disc before a wall: the colour picture tells their side, also
  * when it is not where it should be, and does nothing when it shows something else. */
 
-#include "relief/reconstruct.h"
+#include "seen_view.h"
 #include "test.h"
 
 #include <math.h>
@@ -101,7 +101,7 @@ static int32_t run(picture kind, bool enable, double shift_u, double shift_v, fl
     def.background_method = RLF_BACKGROUND_OFF;
     rlf_reconstruct *stage = NULL;
     int32_t wrong = 0;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    stage = stage_of(&def);
     for (uint32_t frame = 0; frame < FRAMES; frame++) {
         const rlf_surface *surface = NULL;
         rlf_frame f = {.sequence = frame,
@@ -115,7 +115,7 @@ static int32_t run(picture kind, bool enable, double shift_u, double shift_v, fl
             paint(kind, 77777u * frame, color);
         }
         sense(&rig, 99991u * frame, depth);
-        assert_int_equal(rlf_reconstruct_process(stage, &f, &surface), RLF_OK);
+        surface = surface_of(stage, &f);
         wrong += frame >= FRAMES - LAST ? count_wrong(surface, &rig) : 0;
         memcpy(out_depth, surface->depth, sizeof(float) * WIDTH * HEIGHT);
     }
@@ -125,26 +125,23 @@ static int32_t run(picture kind, bool enable, double shift_u, double shift_v, fl
 
 static float with[WIDTH * HEIGHT], without[WIDTH * HEIGHT];
 
-static void the_picture_tells_the_side(void **state)
+TEST_CASE(the_picture_tells_the_side)
 {
-    (void)state;
     int32_t by_depth = run(PICTURE_DISC, false, 0.0, 0.0, without);
     int32_t by_color = run(PICTURE_DISC, true, 0.0, 0.0, with);
     assert_true(by_depth > 100);
     assert_true(3 * by_color < 2 * by_depth);
 }
 
-static void a_picture_that_is_off_is_put_right(void **state)
+TEST_CASE(a_picture_that_is_off_is_put_right)
 {
-    (void)state;
     int32_t by_depth = run(PICTURE_DISC, false, 0.0, 0.0, without);
     assert_true(3 * run(PICTURE_DISC, true, 2.5, 0.0, with) < 2 * by_depth);
     assert_true(3 * run(PICTURE_DISC, true, -1.5, 2.0, with) < 2 * by_depth);
 }
 
-static void a_picture_that_says_nothing_changes_nothing(void **state)
+TEST_CASE(a_picture_that_says_nothing_changes_nothing)
 {
-    (void)state;
     (void)run(PICTURE_NONE, false, 0.0, 0.0, without);
     (void)run(PICTURE_NONE, true, 0.0, 0.0, with);
     assert_memory_equal(with, without, sizeof with);
@@ -152,23 +149,11 @@ static void a_picture_that_says_nothing_changes_nothing(void **state)
     assert_memory_equal(with, without, sizeof with);
 }
 
-static void a_picture_of_something_else_is_not_believed(void **state)
+TEST_CASE(a_picture_of_something_else_is_not_believed)
 {
-    (void)state;
     (void)run(PICTURE_NONE, false, 0.0, 0.0, without);
     (void)run(PICTURE_NOISE, true, 0.0, 0.0, with);
     assert_memory_equal(with, without, sizeof with);
     (void)run(PICTURE_DISC, true, 60.0, 30.0, with); /* all but a corner is beside the disc */
     assert_memory_equal(with, without, sizeof with);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_picture_tells_the_side),
-        cmocka_unit_test(a_picture_that_is_off_is_put_right),
-        cmocka_unit_test(a_picture_that_says_nothing_changes_nothing),
-        cmocka_unit_test(a_picture_of_something_else_is_not_believed),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* Normals at creases: two walls that meet, towards the camera or away from it. */
 
-#include "analytic.h"
+#include "seen_view.h"
 #include "test.h"
 
 #include <math.h>
@@ -83,8 +83,7 @@ static const rlf_surface *reconstruct(const fixture *f, bool creases, rlf_recons
     def.enable_edge_normals = creases;
     assert_int_equal(rlf_reconstruct_create(&def, stage), RLF_OK);
     rlf_frame frame = analytic_frame(&f->rig, f->seen, 0);
-    const rlf_surface *s = NULL;
-    assert_int_equal(rlf_reconstruct_process(*stage, &frame, &s), RLF_OK);
+    const rlf_surface *s = surface_of(*stage, &frame);
     return s;
 }
 
@@ -120,7 +119,7 @@ static score judge(fixture *f)
 
 /* Walls at right angles, turned and tilted in many ways: of the five pixels across the crease the
  * one that it halves may be given to either side. */
-static void creases_are_sharp(void **state)
+TEST_CASE(creases_are_sharp)
 {
     fixture *f = *state;
     score all = {0, 0};
@@ -147,7 +146,7 @@ static void creases_are_sharp(void **state)
 
 /* Lines of missing pixels, two wide, cross a crease: what is filled is on one face or the other, as
  * the planes beside the line say, and not between them. */
-static void creases_go_on_through_holes(void **state)
+TEST_CASE(creases_go_on_through_holes)
 {
     fixture *f = *state;
     score filled = {0, 0};
@@ -170,9 +169,8 @@ static void creases_go_on_through_holes(void **state)
         }
         rlf_reconstruct_destroy(&stage);
     }
-    print_message("%d of %d filled pixels wrong\n", filled.wrong, filled.count);
-    assert_true(filled.count > 1000);
-    assert_true(12 * filled.wrong < filled.count);
+    assert_less(1000, filled.count);
+    assert_less(12 * filled.wrong, filled.count);
 }
 
 /* A side face at x = `edge` that meets a wall in a corner and ends nearer, at another wall. */
@@ -189,7 +187,7 @@ static void set_corner(fixture *f, double edge)
 
 /* Planes of so narrow a face, seen edge-on, are not certain enough to tell where its corner is.
  * What has been seen for a while is. */
-static void time_tells_where_a_corner_is(void **state)
+TEST_CASE(time_tells_where_a_corner_is)
 {
     fixture *f = *state;
     const double focus = f->rig.depth.fx;
@@ -205,8 +203,7 @@ static void time_tells_where_a_corner_is(void **state)
         for (int t = 1; t < 24; t++) {
             add_noise(f);
             rlf_frame frame = analytic_frame(&f->rig, f->seen, t);
-            const rlf_surface *surface = NULL;
-            assert_int_equal(rlf_reconstruct_process(stage, &frame, &surface), RLF_OK);
+            const rlf_surface *surface = surface_of(stage, &frame);
             s = judge_surface(f, surface);
         }
         last.count += s.count;
@@ -220,7 +217,7 @@ static void time_tells_where_a_corner_is(void **state)
 
 /* Waves of twice the noise, as wide as a window, turn the normals of a wall by more than a crease's
  * least angle. Real sensors make such waves: there is nothing to sharpen. */
-static void waves_of_noise_are_no_creases(void **state)
+TEST_CASE(waves_of_noise_are_no_creases)
 {
     fixture *f = *state;
     const double z = 3.0, wave = 2.0 * RLF_PI / 16.0;
@@ -250,13 +247,4 @@ static void waves_of_noise_are_no_creases(void **state)
     rlf_reconstruct_destroy(&stages[1]);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(time_tells_where_a_corner_is),
-        cmocka_unit_test(waves_of_noise_are_no_creases),
-        cmocka_unit_test(creases_are_sharp),
-        cmocka_unit_test(creases_go_on_through_holes),
-    };
-    return cmocka_run_group_tests(tests, make_fixture, free_fixture);
-}
+TEST_GROUP(make_fixture, free_fixture)

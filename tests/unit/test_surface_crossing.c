@@ -1,8 +1,8 @@
 /* Two people who walk past each other: each keeps his label, whoever is hidden meanwhile. */
 
 #include "heavy.h"
-#include "relief/reconstruct.h"
-#include "relief/synthetic.h"
+#include "created.h"
+#include "seen_view.h"
 #include "test.h"
 
 /* Both are inside the picture, apart; then one hides the other; then they are apart again. */
@@ -30,17 +30,14 @@ static void check_seed(uint64_t seed)
     synthetic.enable_color = false;
     synthetic.frame_count = FRAMES;
     synthetic.seed = seed;
-    rlf_source *source = NULL;
-    assert_int_equal(rlf_synthetic_create(&synthetic, &source), RLF_OK);
+    rlf_source *source = synthetic_of(&synthetic);
     rlf_reconstruct_def def =
         rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rlf_source_get_info(source)->rig);
-    rlf_reconstruct *stage = NULL;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    rlf_reconstruct *stage = stage_of(&def);
     int32_t near = 0, far = 0;
     rlf_frame frame;
     for (int t = 0; rlf_source_next(source, &frame) == RLF_OK; t++) {
-        const rlf_surface *s = NULL;
-        assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+        const rlf_surface *s = surface_of(stage, &frame);
         const rlf_truth *truth = rlf_source_get_truth(source);
         if (t == APART_FROM) {
             near = label_of(s, truth, RLF_SYNTHETIC_LABEL_PERSON);
@@ -58,21 +55,10 @@ static void check_seed(uint64_t seed)
     rlf_source_destroy(&source);
 }
 
-static void each_keeps_his_label(void **state)
+TEST_CASE(each_keeps_his_label)
 {
-    (void)state;
-    if (!heavy_is_whole()) {
-        skip(); /* unit.surface_person runs the same code */
-    }
+    heavy_needs_whole(); /* unit.surface_person runs the same code */
     for (uint64_t seed = 1; seed <= 2; seed++) {
         check_seed(seed);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_keeps_his_label),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

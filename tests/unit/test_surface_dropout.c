@@ -1,6 +1,6 @@
 /* One invalid pixel in a hundred costs nothing. */
 
-#include "analytic.h"
+#include "seen_view.h"
 #include "test.h"
 
 enum { WIDTH = 256, HEIGHT = 192, COUNT = WIDTH * HEIGHT };
@@ -53,23 +53,20 @@ static rlf_reconstruct *make_stage(const fixture *f, bool fill)
 {
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
     def.enable_fill = fill;
-    rlf_reconstruct *stage = NULL;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
-    return stage;
+    return stage_of(&def);
 }
 
 static const rlf_surface *process(const fixture *f, rlf_reconstruct *stage, const float *depth)
 {
     rlf_frame frame = analytic_frame(&f->rig, depth, 0);
-    const rlf_surface *s = NULL;
-    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+    const rlf_surface *s = surface_of(stage, &frame);
     return s;
 }
 
 /* Filling on and off: every valid pixel keeps its normal, none turns wrong but at the few edges and
  * creases where noise decides anyway, and an invalid pixel has one only when it is marked filled.
  */
-static void missing_pixels_cost_nothing(void **state)
+TEST_CASE(missing_pixels_cost_nothing)
 {
     const fixture *f = *state;
     for (int fill = 0; fill < 2; fill++) {
@@ -101,7 +98,7 @@ static void missing_pixels_cost_nothing(void **state)
 }
 
 /* The same of the normals alone. */
-static void normals_alone_lose_none(void **state)
+TEST_CASE(normals_alone_lose_none)
 {
     const fixture *f = *state;
     static float whole[3][COUNT], spoilt[3][COUNT];
@@ -127,7 +124,7 @@ static int mirrored(int i)
 
 /* A face that is handed on from pixel to pixel in the order of the rows would grow in it: 29 pixels
  * differ then. */
-static void a_mirrored_image_has_mirrored_normals(void **state)
+TEST_CASE(a_mirrored_image_has_mirrored_normals)
 {
     const fixture *f = *state;
     static float depth[COUNT], ray_x[COUNT], as_is[3][COUNT], turned[3][COUNT];
@@ -148,12 +145,4 @@ static void a_mirrored_image_has_mirrored_normals(void **state)
     assert_true(3500 * differ < COUNT);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(missing_pixels_cost_nothing),
-        cmocka_unit_test(normals_alone_lose_none),
-        cmocka_unit_test(a_mirrored_image_has_mirrored_normals),
-    };
-    return cmocka_run_group_tests(tests, make_fixture, free_fixture);
-}
+TEST_GROUP(make_fixture, free_fixture)

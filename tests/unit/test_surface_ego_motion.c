@@ -1,6 +1,6 @@
 /* A camera that moves is told, and people who move before a camera that stands are not. */
 
-#include "seen_view.h"
+#include "painted.h"
 #include "test.h"
 
 enum { WIDTH = 160, HEIGHT = 120, COUNT = WIDTH * HEIGHT, STILL = 20, TOLD = 10, LEARNING = 5 };
@@ -8,20 +8,24 @@ enum { WIDTH = 160, HEIGHT = 120, COUNT = WIDTH * HEIGHT, STILL = 20, TOLD = 10,
 #define RAD (RLF_PI / 180.0)
 #define TURN 3.0 /* degrees a frame */
 
-static float depth[COUNT];
-
-static rlf_reconstruct *make_stage(void)
+static int start(void **state)
 {
-    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
-    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
+    (void)state;
+    rlf_reconstruct_def def = see_size(WIDTH, HEIGHT);
     def.min_region_points = 8;
-    return seen_view_stage(&def);
+    start_seeing(&def);
+    return 0;
 }
 
-static const rlf_surface *process(rlf_reconstruct *stage, int32_t number)
+static rlf_vec3 ray_of(int32_t i)
 {
-    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
-    return seen_depth_process(&rig, depth, stage, number);
+    return rlf_vec3_make((i % WIDTH - rig.depth.cx) / rig.depth.fx,
+                         (i / WIDTH - rig.depth.cy) / rig.depth.fy, 1.0);
+}
+
+static void sense(int32_t i, double z, analytic_random *random)
+{
+    depth[i] = (float)(z + rlf_depth_noise_sigma(&rig.noise, z) * random_normal(random));
 }
 
 /* A corner of a room with a ball, seen from a pose, with the sensor's noise. */
@@ -30,25 +34,20 @@ static void look(const rlf_pose *T_room_camera, int32_t number)
     static const rlf_vec3 n[3] = {{0, -1, 0}, {0.6, 0, -0.8}, {-0.8, 0, -0.6}};
     static const double d[3] = {-1.0, -1.9, -1.8};
     const rlf_vec3 ball = {0.1, 0.5, 1.7};
-    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
     analytic_random random = {(uint64_t)number + 7};
     rlf_vec3 origin = T_room_camera->p;
     for (int32_t i = 0; i < COUNT; i++) {
-        rlf_vec3 ray = {((i % WIDTH) - rig.depth.cx) / rig.depth.fx,
-                        ((i / WIDTH) - rig.depth.cy) / rig.depth.fy, 1.0};
-        rlf_vec3 way = rlf_rotate(T_room_camera->q, ray);
+        rlf_vec3 way = rlf_rotate(T_room_camera->q, ray_of(i));
         double nearest = 9.0;
         for (int32_t k = 0; k < 3; k++) {
             double t = (d[k] - rlf_dot(n[k], origin)) / rlf_dot(n[k], way);
             nearest = t > 0.0 && t < nearest ? t : nearest;
         }
-        rlf_vec3 to = rlf_sub(ball, origin);
-        double a = rlf_dot(way, way), b = rlf_dot(way, to);
-        double root = b * b - a * (rlf_dot(to, to) - 0.25 * 0.25);
-        double t = root > 0.0 ? (b - sqrt(root)) / a : 0.0;
-        nearest = t > 0.0 && t < nearest ? t : nearest;
-        double sigma = rlf_depth_noise_sigma(&rig.noise, nearest);
-        depth[i] = (float)(nearest + sigma * random_normal(&random));
+        double t, leave;
+        if (sphere_ray(ball, 0.25, origin, way, &t, &leave) && t > 0.0) {
+            nearest = rlf_min(nearest, t);
+        }
+        sense(i, nearest, &random);
     }
 }
 
@@ -70,19 +69,17 @@ static rlf_pose carried(int32_t frames)
     return pose;
 }
 
-static void a_camera_that_moves_is_told(void **state)
+TEST_CASE(a_camera_that_moves_is_told)
 {
-    (void)state;
-    rlf_reconstruct *stage = make_stage();
     const rlf_pose still = rlf_pose_identity();
     for (int32_t k = 0; k < STILL; k++) {
         look(&still, k);
-        assert_false(process(stage, k)->camera_moves);
+        assert_false(see()->camera_moves);
     }
     for (int32_t k = 1; k <= 3 * TOLD; k++) {
         rlf_pose pose = carried(k);
         look(&pose, STILL + k);
-        const rlf_surface *s = process(stage, STILL + k - 1);
+        const rlf_surface *s = see();
         assert_true(s->camera_moves || k < TOLD);
         assert_true(s->camera_moves || s->camera_may_move || k < TOLD - 1);
         for (int32_t i = 0; i < COUNT && s->camera_moves; i++) {
@@ -94,27 +91,23 @@ static void a_camera_that_moves_is_told(void **state)
     const rlf_surface *s = NULL;
     for (int32_t k = 0; k < 2 * TOLD + LEARNING; k++) {
         look(&stands, 1000 + k);
-        s = process(stage, STILL + 3 * TOLD + k);
+        s = see();
     }
     assert_false(s->camera_moves);
     assert_int_equal(s->background_state, RLF_BACKGROUND_READY);
-    rlf_reconstruct_destroy(&stage);
 }
 
-static void who_walks_by_moves_no_camera(void **state)
+TEST_CASE(who_walks_by_moves_no_camera)
 {
-    (void)state;
-    rlf_reconstruct *stage = make_stage();
     const rlf_pose still = rlf_pose_identity();
     for (int32_t k = 0; k < STILL + 40; k++) {
         look(&still, k);
         if (k >= STILL) {
             put_board(k - STILL);
         }
-        const rlf_surface *s = process(stage, k);
+        const rlf_surface *s = see();
         assert_false(s->camera_moves || s->camera_may_move);
     }
-    rlf_reconstruct_destroy(&stage);
 }
 
 static double to_ellipsoid(rlf_vec3 ray, rlf_vec3 centre, rlf_vec3 radii, double angle)
@@ -142,42 +135,28 @@ static void look_at_wall(int32_t number)
     const rlf_quat turn = rlf_quat_from_axis_angle(rlf_vec3_make(0.0, 1.0, 0.0), angle);
     const double lean = number > STILL ? 0.4 * sin(0.15 * (number - STILL)) : 0.0;
     const rlf_quat upright = rlf_quat_from_axis_angle(rlf_vec3_make(0.0, 0.0, 1.0), -lean);
-    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
     analytic_random random = {(uint64_t)number + 7};
     for (int32_t i = 0; i < COUNT; i++) {
-        rlf_vec3 ray = {((i % WIDTH) - rig.depth.cx) / rig.depth.fx,
-                        ((i / WIDTH) - rig.depth.cy) / rig.depth.fy, 1.0};
+        rlf_vec3 ray = ray_of(i);
         double nearest = 2.2 + 0.006 * sin(33.0 * ray.x) * sin(28.6 * ray.y + 1.0);
         ray = rlf_rotate(upright, ray);
         for (int32_t k = 0; k < MAN_PARTS; k++) {
             rlf_vec3 centre = rlf_add(rlf_vec3_make(0.0, 0.0, 1.5), rlf_rotate(turn, centres[k]));
             nearest = rlf_min(nearest, to_ellipsoid(ray, centre, radii[k], angle));
         }
-        double sigma = rlf_depth_noise_sigma(&rig.noise, nearest);
-        depth[i] = (float)(nearest + sigma * random_normal(&random));
+        sense(i, nearest, &random);
     }
 }
 
-static void who_turns_before_a_bare_wall_moves_no_camera(void **state)
+TEST_CASE(who_turns_before_a_bare_wall_moves_no_camera)
 {
-    (void)state;
-    rlf_reconstruct *stage = make_stage();
     for (int32_t k = 0; k < STILL + 60; k++) {
         look_at_wall(k);
-        const rlf_surface *s = process(stage, k);
+        const rlf_surface *s = see();
         assert_false(s->camera_moves || s->camera_may_move);
         assert_true(s->camera_rests || k < 2);
         assert_true(k < STILL + 8 || s->foreground_count > 0);
     }
-    rlf_reconstruct_destroy(&stage);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_camera_that_moves_is_told),
-        cmocka_unit_test(who_walks_by_moves_no_camera),
-        cmocka_unit_test(who_turns_before_a_bare_wall_moves_no_camera),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(start, stop_seeing)

@@ -44,7 +44,7 @@ static rlf_reconstruct *make_stage(const seen_view *f, bool smoothing, bool stea
     def.enable_fill = def.enable_flying_removal = false;
     def.enable_smoothing = smoothing;
     def.enable_steadying = steadying;
-    return seen_view_stage(&def);
+    return stage_of(&def);
 }
 
 static const rlf_surface *process(seen_view *f, rlf_reconstruct *stage, int32_t number)
@@ -64,7 +64,7 @@ static double rms(const float *depth, const float *truth)
     return sqrt(sum / COUNT);
 }
 
-static void smoothing_takes_noise_and_leaves_edges(void **state)
+TEST_CASE(smoothing_takes_noise_and_leaves_edges)
 {
     seen_view *f = *state;
     set_room(f, 1.6);
@@ -79,7 +79,7 @@ static void smoothing_takes_noise_and_leaves_edges(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
-static void without_filters_depth_is_the_frames(void **state)
+TEST_CASE(without_filters_depth_is_the_frames)
 {
     seen_view *f = *state;
     set_room(f, 1.6);
@@ -106,7 +106,7 @@ static double inner_rms(const seen_view *f, const float *depth)
     return sqrt(sum / count);
 }
 
-static void what_stands_still_becomes_steady(void **state)
+TEST_CASE(what_stands_still_becomes_steady)
 {
     seen_view *f = *state;
     set_room(f, 1.6);
@@ -148,7 +148,7 @@ static double after_step(seen_view *f, double sigmas, bool wide)
 }
 
 /* Noise alone passes three sigmas now and then: that is motion only where neighbours move too. */
-static void noise_of_one_pixel_is_no_motion(void **state)
+TEST_CASE(noise_of_one_pixel_is_no_motion)
 {
     seen_view *f = *state;
     set_room(f, 1.6);
@@ -162,7 +162,7 @@ static void noise_of_one_pixel_is_no_motion(void **state)
  * away from what the frame alone gives, and after the jump that: but for rounding, since the wall
  * beside it, which is steady, is the origin of the sums. Where a pixel is at the limit of what its
  * planes explain, rounding decides whether they take it: of two in a thousand at most. */
-static void nothing_that_moved_stays(void **state)
+TEST_CASE(nothing_that_moved_stays)
 {
     seen_view *f = *state;
     rlf_reconstruct *plain = make_stage(f, true, false);
@@ -189,12 +189,12 @@ static const rlf_surface *reconstruct_once(seen_view *f, rlf_reconstruct **stage
 {
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
     def.background_method = RLF_BACKGROUND_OFF;
-    *stage = seen_view_stage(&def);
+    *stage = stage_of(&def);
     return seen_view_process(f, *stage, 0);
 }
 
 /* Drivers leave the border of the image empty: it goes on as what is inside of it. */
-static void the_border_goes_on(void **state)
+TEST_CASE(the_border_goes_on)
 {
     seen_view *f = *state;
     set_room(f, 1.6);
@@ -219,7 +219,7 @@ static void the_border_goes_on(void **state)
 }
 
 /* Of a hole that is as wide as the widest that is filled, and wider by turns, nothing is left. */
-static void a_ragged_hole_is_no_comb(void **state)
+TEST_CASE(a_ragged_hole_is_no_comb)
 {
     enum { LEFT = 60, WIDE = 7, TOP = 8, END = 28 }; /* on the wall */
     seen_view *f = *state;
@@ -240,16 +240,5 @@ static void a_ragged_hole_is_no_comb(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(smoothing_takes_noise_and_leaves_edges, begin_noise),
-        cmocka_unit_test_setup(without_filters_depth_is_the_frames, begin_noise),
-        cmocka_unit_test_setup(what_stands_still_becomes_steady, begin_noise),
-        cmocka_unit_test_setup(noise_of_one_pixel_is_no_motion, begin_noise),
-        cmocka_unit_test_setup(nothing_that_moved_stays, begin_noise),
-        cmocka_unit_test_setup(the_border_goes_on, begin_noise),
-        cmocka_unit_test_setup(a_ragged_hole_is_no_comb, begin_noise),
-    };
-    return cmocka_run_group_tests(tests, set_up, seen_view_destroy);
-}
+TEST_GROUP(set_up, seen_view_destroy)
+TEST_EACH(begin_noise, NULL)

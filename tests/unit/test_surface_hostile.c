@@ -2,6 +2,7 @@
  * they cost is printed by lab/bench/bench_hostile.c. */
 
 #include "hostile.h"
+#include "seen_view.h"
 #include "surface_check.h"
 #include "test.h"
 
@@ -15,7 +16,7 @@ static run run_make(int32_t width, int32_t height)
 {
     run r = {.rig = analytic_rig(width, height)};
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &r.rig);
-    assert_int_equal(rlf_reconstruct_create(&def, &r.stage), RLF_OK);
+    r.stage = stage_of(&def);
     r.depth = rlf_alloc_array((size_t)width * (size_t)height, sizeof *r.depth);
     assert_non_null(r.depth);
     return r;
@@ -32,14 +33,13 @@ static const rlf_surface *run_frame(run *r, hostile_pattern pattern, int32_t num
     const rlf_surface *surface = NULL;
     hostile_draw(&r->rig, pattern, number, r->depth);
     rlf_frame frame = hostile_frame(&r->rig, r->depth, number);
-    assert_int_equal(rlf_reconstruct_process(r->stage, &frame, &surface), RLF_OK);
+    surface = surface_of(r->stage, &frame);
     surface_check(surface);
     return surface;
 }
 
-static void every_pattern_is_survived(void **state)
+TEST_CASE(every_pattern_is_survived)
 {
-    (void)state;
     for (int pattern = 0; pattern < HOSTILE_PATTERN_COUNT; pattern++) {
         run r = run_make(97, 61);
         for (int32_t t = 0; t < 16; t++) {
@@ -55,9 +55,8 @@ static void every_pattern_is_survived(void **state)
     }
 }
 
-static void large_frames_are_survived(void **state)
+TEST_CASE(large_frames_are_survived)
 {
-    (void)state;
     run r = run_make(641, 479);
     for (int32_t t = 0; t < 7; t++) {
         run_frame(&r, t < 6 ? HOSTILE_CHECKER_HOLES : HOSTILE_BLOCKS, t);
@@ -65,9 +64,8 @@ static void large_frames_are_survived(void **state)
     run_free(&r);
 }
 
-static void what_is_out_of_range_is_missing(void **state)
+TEST_CASE(what_is_out_of_range_is_missing)
 {
-    (void)state;
     run r = run_make(97, 61);
     for (int32_t t = 0; t < 12; t++) {
         const rlf_surface *s = run_frame(&r, HOSTILE_SATURATED, t);
@@ -78,46 +76,4 @@ static void what_is_out_of_range_is_missing(void **state)
         assert_int_equal(s->reason[0], RLF_REASON_NO_RETURN);
     }
     run_free(&r);
-}
-
-/* A picture's corner has three neighbours only, too few to tell it from a mixed pixel when one of
- * them is missing. */
-static bool is_corner(const rlf_surface *s, int32_t i)
-{
-    int32_t x = i % s->width;
-    int32_t y = i / s->width;
-    return (x == 0 || x == s->width - 1) && (y == 0 || y == s->height - 1);
-}
-
-/* One pixel in a hundred is missing: every pixel that was measured keeps its normal, none is wrong,
- * and nothing moves or stands in front. */
-static void dropouts_cost_their_neighbours_nothing(void **state)
-{
-    (void)state;
-    run r = run_make(193, 121);
-    for (int32_t t = 0; t < 24; t++) {
-        const rlf_surface *s = run_frame(&r, HOSTILE_DROPOUT_1, t);
-        for (int32_t i = 0; i < s->width * s->height && t >= 12; i++) {
-            bool measured = r.depth[i] != 0;
-            assert_true(measured || s->reason[i] == RLF_REASON_FILLED || s->depth[i] == 0.0f);
-            rlf_vec3 n = rlf_vec3_make(s->normal_x[i], s->normal_y[i], s->normal_z[i]);
-            assert_true(s->depth[i] == 0.0f || angle_deg(n, rlf_vec3_make(0, 0, -1)) < 30.0);
-            assert_true(!measured || s->reason[i] == RLF_REASON_OK || is_corner(s, i));
-            assert_true(!s->foreground[i]);
-            assert_true(s->velocity_x[i] == 0.0f && s->velocity_y[i] == 0.0f &&
-                        s->velocity_z[i] == 0.0f);
-        }
-    }
-    run_free(&r);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_pattern_is_survived),
-        cmocka_unit_test(large_frames_are_survived),
-        cmocka_unit_test(what_is_out_of_range_is_missing),
-        cmocka_unit_test(dropouts_cost_their_neighbours_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,9 +4,8 @@
 #include "relief/surface.h"
 #include "test.h"
 
-static void count_is_six_per_square(void **state)
+TEST_CASE(count_is_six_per_square)
 {
-    (void)state;
     assert_int_equal(rlf_mesh_index_count(64, 53), 63 * 52 * 6);
     assert_int_equal(rlf_mesh_index_count(1, 53), 0);
     assert_int_equal(rlf_mesh_index_count(53, 1), 0);
@@ -14,9 +13,8 @@ static void count_is_six_per_square(void **state)
     assert_true(rlf_mesh_index_count(16384, 16384) == (size_t)16383 * 16383 * 6);
 }
 
-static void squares_are_t1_then_t2(void **state)
+TEST_CASE(squares_are_t1_then_t2)
 {
-    (void)state;
     uint32_t out[12];
     rlf_mesh_indices(3, 2, out);
     const uint32_t expected[12] = {0, 1, 3, 1, 4, 3, 1, 2, 4, 2, 5, 4};
@@ -24,9 +22,8 @@ static void squares_are_t1_then_t2(void **state)
 }
 
 /* Each inner vertex belongs to six triangles, and each triangle turns the same way. */
-static void mesh_is_a_consistent_triangulation(void **state)
+TEST_CASE(mesh_is_a_consistent_triangulation)
 {
-    (void)state;
     enum { WIDTH = 7, HEIGHT = 5 };
     uint32_t out[(WIDTH - 1) * (HEIGHT - 1) * 6];
     int uses[WIDTH * HEIGHT] = {0};
@@ -49,9 +46,8 @@ static void mesh_is_a_consistent_triangulation(void **state)
     }
 }
 
-static void curtains_and_holes_are_left_out(void **state)
+TEST_CASE(curtains_and_holes_are_left_out)
 {
-    (void)state;
     const float depth[12] = {1.0f, 1.0f, 2.0f, 2.0f, 1.0f, 1.02f,
                              2.0f, 2.0f, 1.0f, 0.0f, 2.0f, 2.0f};
     rlf_surface s = {.width = 4, .height = 3, .depth = depth};
@@ -67,9 +63,8 @@ static void curtains_and_holes_are_left_out(void **state)
     }
 }
 
-static void every_reason_has_a_name(void **state)
+TEST_CASE(every_reason_has_a_name)
 {
-    (void)state;
     assert_string_equal(rlf_reason_name(RLF_REASON_NO_RETURN), "no return");
     for (int a = 0; a < RLF_REASON_COUNT; a++) {
         for (int b = 0; b < a; b++) {
@@ -79,9 +74,8 @@ static void every_reason_has_a_name(void **state)
 }
 
 /* Every triangle of the surface whose corners have one label belongs to that region. */
-static void regions_share_out_the_triangles_within_them(void **state)
+TEST_CASE(regions_share_out_the_triangles_within_them)
 {
-    (void)state;
     const float depth[12] = {1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f,
                              1.0f, 1.0f, 1.0f, 0.0f, 1.0f, 1.0f};
     const int32_t label[12] = {3, 3, 8, 8, 3, 3, 8, 8, 3, 0, 8, 8};
@@ -96,9 +90,8 @@ static void regions_share_out_the_triangles_within_them(void **state)
     assert_int_equal(out[0], 2);
 }
 
-static void a_missing_surface_has_no_triangles(void **state)
+TEST_CASE(a_missing_surface_has_no_triangles)
 {
-    (void)state;
     const rlf_surface blind = {.width = 4, .height = 3};
     const rlf_region region = {.x1 = 4, .y1 = 3, .label = 1};
     uint32_t out[36];
@@ -111,18 +104,4 @@ static void a_missing_surface_has_no_triangles(void **state)
     assert_int_equal(rlf_mesh_indices_region(&blind, NULL, 0.05, out), 0);
     assert_int_equal(told, 5);
     rlf_set_assert(NULL, NULL);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(count_is_six_per_square),
-        cmocka_unit_test(squares_are_t1_then_t2),
-        cmocka_unit_test(mesh_is_a_consistent_triangulation),
-        cmocka_unit_test(curtains_and_holes_are_left_out),
-        cmocka_unit_test(regions_share_out_the_triangles_within_them),
-        cmocka_unit_test(a_missing_surface_has_no_triangles),
-        cmocka_unit_test(every_reason_has_a_name),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -85,7 +85,7 @@ typedef struct score {
 static score judge(seen_view *f)
 {
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
-    rlf_reconstruct *stage = seen_view_stage(&def);
+    rlf_reconstruct *stage = stage_of(&def);
     const rlf_surface *s = process(f, stage, 0);
     score result = {0};
     for (int i = 0; i < COUNT; i++) {
@@ -109,7 +109,7 @@ static score judge(seen_view *f)
     return result;
 }
 
-static void a_ball_turns_away_at_its_outline(void **state)
+TEST_CASE(a_ball_turns_away_at_its_outline)
 {
     seen_view *f = *state;
     set_ball(f, rlf_vec3_make(0.1, -0.05, 2.0), 0.3);
@@ -120,7 +120,7 @@ static void a_ball_turns_away_at_its_outline(void **state)
     assert_true(s.mean_deg < 8.0);
 }
 
-static void a_board_stays_flat(void **state)
+TEST_CASE(a_board_stays_flat)
 {
     seen_view *f = *state;
     const rlf_vec3 tilts[3] = {{0, 0, -1}, {0.5, 0, -1}, {-0.2, 0.6, -1}};
@@ -135,11 +135,11 @@ static void a_board_stays_flat(void **state)
 }
 
 /* Two boards with a slit of three columns between them, before a wall that was seen alone. */
-static void slits_are_open(void **state)
+TEST_CASE(slits_are_open)
 {
     seen_view *f = *state;
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
-    rlf_reconstruct *stage = seen_view_stage(&def);
+    rlf_reconstruct *stage = stage_of(&def);
     const rlf_vec3 facing = {0, 0, -1};
     enum { SLIT = 90, WIDE = 3 };
     const rlf_surface *s = NULL;
@@ -187,7 +187,7 @@ static double moving_error_deg(seen_view *f, bool is_ball, bool has_edge_normals
 {
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
     def.enable_edge_normals = has_edge_normals;
-    rlf_reconstruct *stage = seen_view_stage(&def);
+    rlf_reconstruct *stage = stage_of(&def);
     const rlf_surface *s = NULL;
     for (int32_t t = 0; t < 12; t++) {
         if (t < 7) {
@@ -218,27 +218,17 @@ static double moving_error_deg(seen_view *f, bool is_ball, bool has_edge_normals
 }
 
 /* Windows lie inside of the outline: what they find is moved out to the pixel. */
-static void what_is_seen_of_a_moving_ball_turns_away_too(void **state)
+TEST_CASE(what_is_seen_of_a_moving_ball_turns_away_too)
 {
     seen_view *f = *state;
     double without = moving_error_deg(f, true, false), with = moving_error_deg(f, true, true);
     assert_true(with < 0.75 * without);
 }
 
-static void what_is_seen_of_a_moving_board_stays_flat(void **state)
+TEST_CASE(what_is_seen_of_a_moving_board_stays_flat)
 {
     seen_view *f = *state;
     assert_true(moving_error_deg(f, false, true) < moving_error_deg(f, false, false) + 0.5);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_ball_turns_away_at_its_outline),
-        cmocka_unit_test(a_board_stays_flat),
-        cmocka_unit_test(slits_are_open),
-        cmocka_unit_test(what_is_seen_of_a_moving_ball_turns_away_too),
-        cmocka_unit_test(what_is_seen_of_a_moving_board_stays_flat),
-    };
-    return cmocka_run_group_tests(tests, set_up, seen_view_destroy);
-}
+TEST_GROUP(set_up, seen_view_destroy)

@@ -35,7 +35,7 @@ static void undo(fixture *f)
     oversmooth_undo(&f->stage, f->seen, f->smooth, normal);
 }
 
-static void what_was_moved_between_two_surfaces_goes_back(void **state)
+TEST_CASE(what_was_moved_between_two_surfaces_goes_back)
 {
     fixture *f = *state;
     f->smooth[AT] = 2.75f;
@@ -46,7 +46,7 @@ static void what_was_moved_between_two_surfaces_goes_back(void **state)
     assert_true(f->normal[2][AT + 1] == -1.0f && f->normal[2][AT - 2] == -1.0f);
 }
 
-static void a_wrong_pixel_stays_where_its_neighbours_are(void **state)
+TEST_CASE(a_wrong_pixel_stays_where_its_neighbours_are)
 {
     fixture *f = *state;
     f->seen[AT + 3] = 2.75f;
@@ -55,7 +55,7 @@ static void a_wrong_pixel_stays_where_its_neighbours_are(void **state)
 }
 
 /* 3 cm from column to column: of its neighbours only those above and below are at its depth. */
-static void a_steep_face_is_smoothed(void **state)
+TEST_CASE(a_steep_face_is_smoothed)
 {
     fixture *f = *state;
     for (int32_t i = 0; i < COUNT; i++) {
@@ -66,7 +66,7 @@ static void a_steep_face_is_smoothed(void **state)
     assert_true(f->smooth[AT] > f->seen[AT]);
 }
 
-static void noise_is_smoothed_and_what_is_missing_stays_so(void **state)
+TEST_CASE(noise_is_smoothed_and_what_is_missing_stays_so)
 {
     fixture *f = *state;
     f->smooth[AT] += 0.01f;
@@ -75,13 +75,4 @@ static void noise_is_smoothed_and_what_is_missing_stays_so(void **state)
     assert_true(f->smooth[AT] > far_z && f->smooth[AT + 2] == 0.0f);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(what_was_moved_between_two_surfaces_goes_back, set_up),
-        cmocka_unit_test_setup(a_wrong_pixel_stays_where_its_neighbours_are, set_up),
-        cmocka_unit_test_setup(a_steep_face_is_smoothed, set_up),
-        cmocka_unit_test_setup(noise_is_smoothed_and_what_is_missing_stays_so, set_up),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(set_up, NULL)

@@ -1,14 +1,13 @@
 /* Point cloud eq. 4.1: decimation, units, ranges, reasons, rays, strides. */
 
-#include "analytic.h"
+#include "painted.h"
 #include "test.h"
 
 #include <math.h>
 
-static rlf_reconstruct_def plain_def(const rlf_rig *rig, int32_t factor)
+static rlf_reconstruct_def plain_def(int32_t width, int32_t height)
 {
-    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, rig);
-    def.scale_factor = factor;
+    rlf_reconstruct_def def = see_size(width, height);
     def.background_method = RLF_BACKGROUND_OFF;
     def.enable_flying_removal = false;
     def.enable_fill = false;
@@ -16,62 +15,50 @@ static rlf_reconstruct_def plain_def(const rlf_rig *rig, int32_t factor)
     return def;
 }
 
-static void every_kept_point_is_eq_4_1(void **state)
+TEST_CASE(every_kept_point_is_eq_4_1)
 {
-    (void)state;
     enum { WIDTH = 101, HEIGHT = 67, PAD = 5 };
-    static uint16_t depth[HEIGHT][WIDTH + PAD];
+    static uint16_t counts[HEIGHT][WIDTH + PAD];
     static const int32_t factors[] = {1, 2, 3, 8, 64};
-    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
     for (int32_t y = 0; y < HEIGHT; y++) {
         for (int32_t x = 0; x < WIDTH + PAD; x++) {
-            depth[y][x] = (uint16_t)(x < WIDTH ? 600 + 31 * x + 7 * y : 1);
+            counts[y][x] = (uint16_t)(x < WIDTH ? 600 + 31 * x + 7 * y : 1);
         }
     }
     for (size_t k = 0; k < sizeof factors / sizeof factors[0]; k++) {
         int32_t f = factors[k];
-        rlf_reconstruct_def def = plain_def(&rig, f);
-        rlf_reconstruct *stage;
-        assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+        rlf_reconstruct_def def = plain_def(WIDTH, HEIGHT);
+        def.scale_factor = f;
+        start_seeing(&def);
         rlf_frame frame = {.rig = &rig,
-                           .depth_u16 = &depth[0][0],
-                           .depth_stride = sizeof depth[0],
+                           .depth_u16 = &counts[0][0],
+                           .depth_stride = sizeof counts[0],
                            .depth_units_per_metre = 1000.0};
-        const rlf_surface *s;
-        assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+        const rlf_surface *s = surface_of(stage, &frame);
         assert_int_equal(s->width, (WIDTH + f - 1) / f);
         assert_int_equal(s->height, (HEIGHT + f - 1) / f);
         assert_int_equal(s->scale_factor, f);
         for (int32_t y = 0; y < s->height; y++) {
             for (int32_t x = 0; x < s->width; x++) {
-                double z = depth[y * f][x * f] / 1000.0;
+                double z = counts[y * f][x * f] / 1000.0;
                 rlf_vec3 p = rlf_surface_point(s, y * s->width + x);
                 assert_float_equal(p.z, z, 1e-6);
                 assert_float_equal(p.x, (x * f - rig.depth.cx) * z / rig.depth.fx, 2e-6);
                 assert_float_equal(p.y, (y * f - rig.depth.cy) * z / rig.depth.fy, 2e-6);
             }
         }
-        rlf_reconstruct_destroy(&stage);
-        assert_null(stage);
     }
 }
 
-static void lens_distortion_is_undone_and_the_rest_has_a_reason(void **state)
+TEST_CASE(lens_distortion_is_undone_and_the_rest_has_a_reason)
 {
-    (void)state;
-    rlf_rig rig = analytic_rig(64, 48);
+    rlf_reconstruct_def def = plain_def(64, 48);
     rig.depth.distortion_model = RLF_DISTORTION_PLUMB_BOB;
     rig.depth.distortion[0] = -0.5; /* folds within the picture */
-    float *depth = rlf_alloc_array(64 * 48, sizeof(float));
-    for (int i = 0; i < 64 * 48; i++) {
-        depth[i] = 2.0f;
-    }
-    rlf_reconstruct_def def = plain_def(&rig, 1);
-    rlf_reconstruct *stage;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
-    rlf_frame frame = analytic_frame(&rig, depth, 0);
-    const rlf_surface *s;
-    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+    def.rig = rig;
+    paint_all(2.0f);
+    start_seeing(&def);
+    const rlf_surface *s = see();
     int outside = 0;
     for (int32_t i = 0; i < s->width * s->height; i++) {
         if (s->reason[i] == RLF_REASON_OUTSIDE_LENS) {
@@ -85,76 +72,59 @@ static void lens_distortion_is_undone_and_the_rest_has_a_reason(void **state)
         assert_float_equal(v, (double)(i / 64), 1e-3);
     }
     assert_in_range(outside, 4, 64 * 48 / 2);
-    rlf_reconstruct_destroy(&stage);
-    rlf_free(depth);
 }
 
-static void missing_depth_is_data_with_a_reason(void **state)
+TEST_CASE(missing_depth_is_data_with_a_reason)
 {
-    (void)state;
-    rlf_rig rig = analytic_rig(9, 1);
-    const float depth[9] = {1.0f,   0.0f,   -1.0f,           NAN, INFINITY, 0.49f,
-                            4.501f, 1e-40f, (float)-HUGE_VAL};
+    const float values[9] = {1.0f,   0.0f,   -1.0f,           NAN, INFINITY, 0.49f,
+                             4.501f, 1e-40f, (float)-HUGE_VAL};
     static const uint8_t expected[9] = {
         RLF_REASON_OK,        RLF_REASON_NO_RETURN, RLF_REASON_NO_RETURN,
         RLF_REASON_NO_RETURN, RLF_REASON_NO_RETURN, RLF_REASON_TOO_NEAR,
         RLF_REASON_TOO_FAR,   RLF_REASON_TOO_NEAR,  RLF_REASON_NO_RETURN};
-    rlf_reconstruct_def def = plain_def(&rig, 1);
-    rlf_reconstruct *stage;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
-    rlf_frame frame = analytic_frame(&rig, depth, 0);
-    const rlf_surface *s;
-    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+    const rlf_reconstruct_def def = plain_def(9, 1);
+    memcpy(depth, values, sizeof values);
+    start_seeing(&def);
+    const rlf_surface *s = see();
     for (int i = 0; i < 9; i++) {
         assert_int_equal(s->reason[i], expected[i]);
         assert_true((s->depth[i] > 0.0f) == (i == 0));
         assert_true(s->normal_z[i] - s->normal_z[i] == 0.0f);
     }
     assert_int_equal(s->valid_count, 1);
-    rlf_reconstruct_destroy(&stage);
 }
 
-static void u16_extremes_have_a_reason(void **state)
+TEST_CASE(u16_extremes_have_a_reason)
 {
-    (void)state;
-    rlf_rig rig = analytic_rig(4, 1);
-    const uint16_t depth[4] = {0, 1, 65535, 5000};
-    rlf_reconstruct_def def = plain_def(&rig, 1);
-    rlf_reconstruct *stage;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    const uint16_t counts[4] = {0, 1, 65535, 5000};
+    const rlf_reconstruct_def def = plain_def(4, 1);
+    start_seeing(&def);
     rlf_frame frame = {
-        .rig = &rig, .depth_u16 = depth, .depth_stride = 8, .depth_units_per_metre = 5000.0};
-    const rlf_surface *s;
-    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+        .rig = &rig, .depth_u16 = counts, .depth_stride = 8, .depth_units_per_metre = 5000.0};
+    const rlf_surface *s = surface_of(stage, &frame);
     assert_int_equal(s->reason[0], RLF_REASON_NO_RETURN);
     assert_int_equal(s->reason[1], RLF_REASON_TOO_NEAR);
     assert_int_equal(s->reason[2], RLF_REASON_TOO_FAR);
     assert_int_equal(s->reason[3], RLF_REASON_OK);
     assert_float_equal(s->depth[3], 1.0, 1e-6);
-    rlf_reconstruct_destroy(&stage);
 }
 
-static void mixed_pixels_are_removed_and_planes_kept(void **state)
+TEST_CASE(mixed_pixels_are_removed_and_planes_kept)
 {
-    (void)state;
     enum { WIDTH = 64, HEIGHT = 48 };
-    static float depth[WIDTH * HEIGHT];
-    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    rlf_reconstruct_def def = plain_def(WIDTH, HEIGHT);
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         int x = i % WIDTH;
         /* a near half, a far half that is a steep plane, one column between the two */
         depth[i] = x < 30 ? 1.0f : 2.0f + 0.02f * (float)(x - 30);
         depth[i] = x == 30 ? 1.55f : depth[i];
     }
-    rlf_reconstruct_def def = plain_def(&rig, 1);
     def.enable_flying_removal = true;
-    rlf_reconstruct *stage;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
-    rlf_frame frame = analytic_frame(&rig, depth, 0);
+    start_seeing(&def);
     const rlf_surface *s;
     for (int pass = 0; pass < 2; pass++) {
         depth[20 * WIDTH + 30] += 0.04f; /* not even its column agrees with this one */
-        assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+        s = see();
     }
     int32_t odd = 20 * WIDTH + 30;
     assert_int_equal(s->reason[odd], RLF_REASON_FLYING);
@@ -164,15 +134,12 @@ static void mixed_pixels_are_removed_and_planes_kept(void **state)
         bool away = (x < 29 || x > 31) && x > 0 && y > 0 && x < WIDTH - 1 && y < HEIGHT - 1;
         assert_true(!away || s->depth[i] == depth[i]);
     }
-    rlf_reconstruct_destroy(&stage);
 }
 
-static void small_holes_are_filled_from_the_right_side(void **state)
+TEST_CASE(small_holes_are_filled_from_the_right_side)
 {
-    (void)state;
     enum { WIDTH = 80, HEIGHT = 60 };
-    static float depth[WIDTH * HEIGHT];
-    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    rlf_reconstruct_def def = plain_def(WIDTH, HEIGHT);
     rlf_vec3 n = rlf_normalize(rlf_vec3_make(0.4, -0.3, -0.9));
     float *ray_x, *ray_y;
     analytic_rays(&rig.depth, &ray_x, &ray_y);
@@ -182,13 +149,9 @@ static void small_holes_are_filled_from_the_right_side(void **state)
         bool hole = (x >= 10 && x < 15) || (x >= 38 && x < 42) || (x >= 50 && x < 70);
         depth[i] = hole ? 0.0f : depth[i];
     }
-    rlf_reconstruct_def def = plain_def(&rig, 1);
     def.enable_fill = true;
-    rlf_reconstruct *stage;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
-    rlf_frame frame = analytic_frame(&rig, depth, 0);
-    const rlf_surface *s;
-    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+    start_seeing(&def);
+    const rlf_surface *s = see();
     int32_t row = 30 * WIDTH;
     for (int x = 10; x < 15; x++) { /* on the plane, exactly */
         double truth = plane_depth(n, -1.8, s->ray_x[row + x], s->ray_y[row + x]);
@@ -201,20 +164,8 @@ static void small_holes_are_filled_from_the_right_side(void **state)
         assert_int_equal(s->reason[row + x], RLF_REASON_NO_RETURN);
         assert_true(s->depth[row + x] == 0.0f);
     }
-    rlf_reconstruct_destroy(&stage);
     rlf_free(ray_x);
     rlf_free(ray_y);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_kept_point_is_eq_4_1),
-        cmocka_unit_test(lens_distortion_is_undone_and_the_rest_has_a_reason),
-        cmocka_unit_test(missing_depth_is_data_with_a_reason),
-        cmocka_unit_test(u16_extremes_have_a_reason),
-        cmocka_unit_test(mixed_pixels_are_removed_and_planes_kept),
-        cmocka_unit_test(small_holes_are_filled_from_the_right_side),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(NULL, stop_seeing)

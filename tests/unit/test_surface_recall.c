@@ -48,7 +48,7 @@ static const rlf_surface *process(staged_view *f, int32_t number, double dropped
     return seen_view_process(&f->view, f->stage, number);
 }
 
-static void what_stands_is_recalled(void **state)
+TEST_CASE(what_stands_is_recalled)
 {
     staged_view *f = *state;
     rlf_reconstruct_reset(f->stage);
@@ -71,7 +71,7 @@ static void what_stands_is_recalled(void **state)
     assert_true(missing < dropped / 50);
 }
 
-static void what_stands_from_the_first_frame_on_is_recalled_at_once(void **state)
+TEST_CASE(what_stands_from_the_first_frame_on_is_recalled_at_once)
 {
     staged_view *f = *state;
     rlf_reconstruct_reset(f->stage);
@@ -91,7 +91,7 @@ static void what_stands_from_the_first_frame_on_is_recalled_at_once(void **state
 }
 
 /* The board is gone from one frame to the next, and half of the pixels with it. */
-static void what_left_is_forgotten(void **state)
+TEST_CASE(what_left_is_forgotten)
 {
     staged_view *f = *state;
     rlf_reconstruct_reset(f->stage);
@@ -110,7 +110,7 @@ static void what_left_is_forgotten(void **state)
 
 /* The board begins to move by half a pixel per frame. The frame in which it begins shows few of the
  * pixels that prove it; after that nothing is recalled on the wrong side of its edges. */
-static void what_moves_is_not_recalled(void **state)
+TEST_CASE(what_moves_is_not_recalled)
 {
     staged_view *f = *state;
     rlf_reconstruct_reset(f->stage);
@@ -128,14 +128,14 @@ static void what_moves_is_not_recalled(void **state)
     assert_int_equal(wrong, 0);
 }
 
-static void switched_off_it_recalls_nothing(void **state)
+TEST_CASE(switched_off_it_recalls_nothing)
 {
     staged_view *f = *state;
     rlf_reconstruct *with = f->stage;
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->view.rig);
     def.background_method = RLF_BACKGROUND_OFF;
     def.enable_fill = def.enable_hold = false;
-    assert_int_equal(rlf_reconstruct_create(&def, &f->stage), RLF_OK);
+    f->stage = stage_of(&def);
     set_board(f, 30);
     for (int t = 0; t < 10; t++) {
         const rlf_surface *s = process(f, t, 0.1);
@@ -175,14 +175,14 @@ static const rlf_surface *see_top(staged_view *f, int32_t number)
 
 /* Samples of the second row have their like below them only: what is believed for that is too near.
  */
-static void the_rear_of_a_low_top_is_not_drawn_near(void **state)
+TEST_CASE(the_rear_of_a_low_top_is_not_drawn_near)
 {
     staged_view f = *(staged_view *)*state;
     f.view.rig.depth.fx = f.view.rig.depth.fy = 365.0;
     f.view.rig.depth.cy = -26.0;
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f.view.rig);
     def.background_method = RLF_BACKGROUND_OFF;
-    assert_int_equal(rlf_reconstruct_create(&def, &f.stage), RLF_OK);
+    f.stage = stage_of(&def);
     double off = 0.0, count = 0.0;
     for (int t = 0; t < 60; t++) {
         const rlf_surface *s = see_top(&f, t);
@@ -197,15 +197,4 @@ static void the_rear_of_a_low_top_is_not_drawn_near(void **state)
     assert_true(off / count > -0.01);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_stands_is_recalled),
-        cmocka_unit_test(what_stands_from_the_first_frame_on_is_recalled_at_once),
-        cmocka_unit_test(what_left_is_forgotten),
-        cmocka_unit_test(what_moves_is_not_recalled),
-        cmocka_unit_test(switched_off_it_recalls_nothing),
-        cmocka_unit_test(the_rear_of_a_low_top_is_not_drawn_near),
-    };
-    return cmocka_run_group_tests(tests, make_fixture, staged_view_destroy);
-}
+TEST_GROUP(make_fixture, staged_view_destroy)

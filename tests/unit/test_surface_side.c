@@ -67,7 +67,7 @@ static void take_frame(seen_view *f)
 static const rlf_surface *watch(seen_view *f, rlf_reconstruct **stage)
 {
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
-    *stage = seen_view_stage(&def);
+    *stage = stage_of(&def);
     const rlf_surface *s = NULL;
     for (int32_t k = 0; k < FRAMES; k++) {
         take_frame(f);
@@ -118,7 +118,7 @@ static score judge_posts(seen_view *f, double width, double far)
     return all;
 }
 
-static void the_side_of_a_post_is_a_face(void **state)
+TEST_CASE(the_side_of_a_post_is_a_face)
 {
     score all = judge_posts(*state, 0.05, 3.26);
     assert_true(all.side > 8 * (HEIGHT - 24));
@@ -127,7 +127,7 @@ static void the_side_of_a_post_is_a_face(void **state)
 }
 
 /* A pixel of it, which the sensor drops in every frame. */
-static void a_narrow_post_is_as_deep_as_it_is_wide(void **state)
+TEST_CASE(a_narrow_post_is_as_deep_as_it_is_wide)
 {
     score all = judge_posts(*state, 0.045, 3.235);
     assert_true(all.side > 6 * (HEIGHT - 24) && all.side <= 9 * (HEIGHT - 24));
@@ -142,7 +142,7 @@ static const rlf_surface *watch_long(seen_view *f, block b, rlf_reconstruct **st
     set_wall(f);
     add_block(f, b);
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
-    *stage = seen_view_stage(&def);
+    *stage = stage_of(&def);
     const rlf_surface *s = NULL;
     for (int32_t k = 0; k < LONG; k++) {
         take_frame(f);
@@ -152,7 +152,7 @@ static const rlf_surface *watch_long(seen_view *f, block b, rlf_reconstruct **st
 }
 
 /* The background takes over what many frames have told. */
-static void the_background_has_the_side(void **state)
+TEST_CASE(the_background_has_the_side)
 {
     seen_view *f = *state;
     rlf_reconstruct *stage = NULL;
@@ -165,13 +165,12 @@ static void the_background_has_the_side(void **state)
         side += is_side_at[i];
         wrong += is_side_at[i] && angle_deg(n, truth) > 30.0;
     }
-    print_message("side of the background: %d of %d wrong\n", wrong, side);
     assert_true(side >= HEIGHT - 24);
     assert_true(100 * wrong <= 12 * side);
     rlf_reconstruct_destroy(&stage);
 }
 
-static void a_plate_has_no_side(void **state)
+TEST_CASE(a_plate_has_no_side)
 {
     seen_view *f = *state;
     set_wall(f);
@@ -187,7 +186,7 @@ static bool is_wall(const seen_view *f, int i)
     return f->truth[i] > wall - 0.01;
 }
 
-static void the_wall_shows_in_a_slit(void **state)
+TEST_CASE(the_wall_shows_in_a_slit)
 {
     seen_view *f = *state;
     set_wall(f);
@@ -203,19 +202,8 @@ static void the_wall_shows_in_a_slit(void **state)
         slit += in_slit;
         wrong += in_slit && !(s->depth[i] > wall - 0.05 && s->depth[i] < wall + 0.05);
     }
-    print_message("slit %d of %d wrong\n", wrong, slit);
     assert_true(slit > 0 && 20 * wrong <= slit);
     rlf_reconstruct_destroy(&stage);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_side_of_a_post_is_a_face),
-        cmocka_unit_test(a_narrow_post_is_as_deep_as_it_is_wide),
-        cmocka_unit_test(the_background_has_the_side),
-        cmocka_unit_test(a_plate_has_no_side),
-        cmocka_unit_test(the_wall_shows_in_a_slit),
-    };
-    return cmocka_run_group_tests(tests, set_up, seen_view_destroy);
-}
+TEST_GROUP(set_up, seen_view_destroy)

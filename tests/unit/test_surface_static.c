@@ -1,10 +1,9 @@
 /* The thickness of what stands, against a room whose backs are known: a floor, a wall, and on the
  * floor a ball and a box that shows two sides and its top; with the sensor's noise. */
-#include "analytic.h"
+#include "created.h"
 #include "heavy.h"
+#include "painted.h"
 #include "test.h"
-
-#include <string.h>
 
 enum { WIDTH = 320, HEIGHT = 240, COUNT = WIDTH * HEIGHT, FRAMES = 80 };
 enum { WALL, FLOOR, BALL, BOX, PLATE, KINDS };
@@ -23,15 +22,15 @@ static const standing_box high_box = {{0.4, 0.4, 2.3}, {0.12, 0.5, 0.15}, -0.05}
 /* Goes on beyond the left border. */
 static const standing_box cut_box = {{-1.7, 0.4, 2.3}, {0.6, 0.4, 0.15}, 0.0};
 static const standing_box *box = &low_box;
-static double zoom = 1.0;
 
-static float depth[COUNT], exit_depth[COUNT];
+static float truth[COUNT], exit_depth[COUNT];
+static analytic_random noise;
 static int kind[COUNT];
 
 static void hit(int i, int what, double near, double far)
 {
-    if (near > 0.0 && near < (double)depth[i]) {
-        depth[i] = (float)near;
+    if (near > 0.0 && near < (double)truth[i]) {
+        truth[i] = (float)near;
         exit_depth[i] = (float)far;
         kind[i] = what;
     }
@@ -39,10 +38,9 @@ static void hit(int i, int what, double near, double far)
 
 static void see_ball(int i, rlf_vec3 ray)
 {
-    double a = rlf_dot(ray, ray), b = rlf_dot(ray, ball_centre);
-    double c = rlf_dot(ball_centre, ball_centre) - ball_radius * ball_radius;
-    if (b * b > a * c) {
-        hit(i, BALL, (b - sqrt(b * b - a * c)) / a, (b + sqrt(b * b - a * c)) / a);
+    double near, far;
+    if (sphere_ray(ball_centre, ball_radius, rlf_vec3_make(0, 0, 0), ray, &near, &far)) {
+        hit(i, BALL, near, far);
     }
 }
 
@@ -50,27 +48,20 @@ static void see_box(int i, rlf_vec3 ray)
 {
     rlf_quat q = rlf_quat_from_axis_angle(rlf_vec3_make(0, 1, 0), -box->heading);
     rlf_vec3 o = rlf_rotate(q, rlf_neg(box->centre)), m = rlf_rotate(q, ray);
-    const double origin[3] = {o.x, o.y, o.z}, way[3] = {m.x, m.y, m.z};
-    const double half[3] = {box->half.x, box->half.y, box->half.z};
-    double near = 0.0, far = 1e9;
-    for (int k = 0; k < 3; k++) {
-        double inverse = 1.0 / (way[k] != 0.0 ? way[k] : 1e-12);
-        double t0 = (-half[k] - origin[k]) * inverse, t1 = (half[k] - origin[k]) * inverse;
-        near = rlf_max(near, rlf_min(t0, t1));
-        far = rlf_min(far, rlf_max(t0, t1));
-    }
-    if (near < far) {
+    const rlf_aabb upright = {rlf_neg(box->half), box->half};
+    double near, far;
+    if (box_ray(&upright, o, m, &near, &far)) {
         hit(i, BOX, near, far);
     }
 }
 
 /* The room, with the box and the ball or without. */
-static void see(const rlf_rig *rig, bool has_things)
+static void draw(bool has_things)
 {
     for (int i = 0; i < COUNT; i++) {
-        rlf_vec3 ray = {(i % WIDTH - rig->depth.cx) / rig->depth.fx,
-                        (i / WIDTH - rig->depth.cy) / rig->depth.fy, 1.0};
-        depth[i] = (float)wall_z;
+        rlf_vec3 ray = {(i % WIDTH - rig.depth.cx) / rig.depth.fx,
+                        (i / WIDTH - rig.depth.cy) / rig.depth.fy, 1.0};
+        truth[i] = (float)wall_z;
         exit_depth[i] = 0.0f;
         kind[i] = WALL;
         if (ray.y > 0.0) {
@@ -86,54 +77,36 @@ static void see(const rlf_rig *rig, bool has_things)
     }
 }
 
-typedef struct show {
-    rlf_rig rig;
-    rlf_reconstruct *stage;
-    analytic_random random;
-    int frame;
-} show;
-
-static void open_show(show *s, rlf_pool *pool)
+/* Of a lens that shows `zoom` times as much of the middle. */
+static void begin(double zoom, rlf_pool *pool)
 {
-    s->rig = analytic_rig(WIDTH, HEIGHT);
-    s->rig.depth.fx *= zoom;
-    s->rig.depth.fy *= zoom;
-    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &s->rig);
+    rlf_reconstruct_def def = see_size(WIDTH, HEIGHT);
+    rig.depth.fx *= zoom;
+    rig.depth.fy *= zoom;
+    def.rig = rig;
     def.pool = pool;
-    s->random = (analytic_random){23};
-    s->frame = 0;
-    assert_int_equal(rlf_reconstruct_create(&def, &s->stage), RLF_OK);
+    noise = (analytic_random){23};
+    start_seeing(&def);
 }
 
-static const rlf_surface *next(show *s)
-{
-    static float noisy[COUNT];
-    const rlf_surface *surface = NULL;
-    for (int i = 0; i < COUNT; i++) {
-        double z = depth[i];
-        noisy[i] = (float)(z + rlf_depth_noise_sigma(&s->rig.noise, z) * random_normal(&s->random));
-    }
-    rlf_frame f = analytic_frame(&s->rig, noisy, s->frame++);
-    assert_int_equal(rlf_reconstruct_process(s->stage, &f, &surface), RLF_OK);
-    return surface;
-}
-
-static const rlf_surface *watch(show *s, int frames)
+static const rlf_surface *watch(int frames)
 {
     const rlf_surface *surface = NULL;
     for (int k = 0; k < frames; k++) {
-        surface = next(s);
+        for (int i = 0; i < COUNT; i++) {
+            double z = truth[i];
+            depth[i] = (float)(z + rlf_depth_noise_sigma(&rig.noise, z) * random_normal(&noise));
+        }
+        surface = see();
     }
     return surface;
 }
 
-static void backs_of_what_stands_are_found(void **state)
+TEST_CASE(backs_of_what_stands_are_found)
 {
-    (void)state;
-    show s;
-    open_show(&s, NULL);
-    see(&s.rig, true);
-    const rlf_surface *surface = watch(&s, FRAMES);
+    begin(1.0, NULL);
+    draw(true);
+    const rlf_surface *surface = watch(FRAMES);
     double known[KINDS] = {0}, all[KINDS] = {0}, off[KINDS] = {0};
     for (int i = 0; i < COUNT; i++) {
         double thickness = surface->background_thickness[i];
@@ -142,27 +115,20 @@ static void backs_of_what_stands_are_found(void **state)
         double error = surface->background_depth[i] + thickness - exit_depth[i];
         off[kind[i]] += thickness > 0.0 ? (error < 0.0 ? -error : error) : 0.0;
     }
-    print_message("exit of a ball: %.1f mm off, of a box: %.1f; known of the box: %.2f %%, of the "
-                  "room: %.2f\n",
-                  1e3 * off[BALL] / known[BALL], 1e3 * off[BOX] / known[BOX],
-                  100.0 * known[BOX] / all[BOX],
-                  100.0 * (known[WALL] + known[FLOOR]) / (all[WALL] + all[FLOOR]));
     assert_true(known[BALL] > 0.9 * all[BALL] && off[BALL] < 0.03 * known[BALL]);
     assert_true(known[BOX] > 0.983 * all[BOX] && off[BOX] < 0.012 * known[BOX]);
     /* walls and floors end nowhere; one face alone says nothing about its back */
-    assert_true(known[WALL] + known[FLOOR] < 0.005 * (all[WALL] + all[FLOOR]));
-    assert_true(known[PLATE] < 0.1 * all[PLATE]);
-    rlf_reconstruct_destroy(&s.stage);
+    assert_less(known[WALL] + known[FLOOR], 0.005 * (all[WALL] + all[FLOOR]));
+    assert_less(known[PLATE], 0.1 * all[PLATE]);
 }
 
 /* Metres that the box's exit is off on average; nearly all of it must be known. */
 static double watch_box(const standing_box *what)
 {
-    show s;
     box = what;
-    open_show(&s, NULL);
-    see(&s.rig, true);
-    const rlf_surface *surface = watch(&s, FRAMES);
+    begin(1.0, NULL);
+    draw(true);
+    const rlf_surface *surface = watch(FRAMES);
     double known = 0.0, all = 0.0, off = 0.0;
     for (int i = 0; i < COUNT; i++) {
         double thickness = surface->background_thickness[i];
@@ -172,43 +138,35 @@ static double watch_box(const standing_box *what)
         known += is_known;
         off += is_known ? (error < 0.0 ? -error : error) : 0.0;
     }
-    print_message("exit of a box: %.1f mm off, known: %.0f %%\n", 1e3 * off / known,
-                  100.0 * known / all);
-    assert_true(known > 0.95 * all);
-    rlf_reconstruct_destroy(&s.stage);
+    assert_less(0.95 * all, known);
     box = &low_box;
     return off / known;
 }
 
 /* Depth jumps by five centimetres from pixel to pixel there, and yet it is one face. */
-static void a_side_at_a_low_angle_shows_how_deep_a_box_is(void **state)
+TEST_CASE(a_side_at_a_low_angle_shows_how_deep_a_box_is)
 {
-    (void)state;
     assert_true(watch_box(&high_box) < 0.035);
 }
 
 /* What is seen of it ends at the border, and it does not. */
-static void a_box_that_the_border_cuts_goes_on(void **state)
+TEST_CASE(a_box_that_the_border_cuts_goes_on)
 {
-    (void)state;
     assert_true(watch_box(&cut_box) < 0.02);
 }
 
-static void what_has_left_has_no_back(void **state)
+TEST_CASE(what_has_left_has_no_back)
 {
-    (void)state;
-    show s;
-    open_show(&s, NULL);
-    see(&s.rig, true);
-    (void)watch(&s, FRAMES);
-    see(&s.rig, false);
-    const rlf_surface *surface = watch(&s, 20);
+    begin(1.0, NULL);
+    draw(true);
+    (void)watch(FRAMES);
+    draw(false);
+    const rlf_surface *surface = watch(20);
     int known = 0;
     for (int i = 0; i < COUNT; i++) {
         known += kind[i] != PLATE && surface->background_thickness[i] > 0.0f;
     }
     assert_true(known < COUNT / 200);
-    rlf_reconstruct_destroy(&s.stage);
 }
 
 /* Pixels of the ball that have a back. */
@@ -222,95 +180,67 @@ static int count_known(const rlf_surface *surface)
 }
 
 /* A ball close to the wall: that is hardly farther than its back, and is another thing. */
-static void a_wall_is_not_thick_where_a_ball_was(void **state)
+TEST_CASE(a_wall_is_not_thick_where_a_ball_was)
 {
-    (void)state;
-    if (!heavy_is_whole()) {
-        skip(); /* the same code as what_has_left_has_no_back */
-    }
+    heavy_needs_whole(); /* the same code as what_has_left_has_no_back */
     const double radius = 0.08;
     const rlf_vec3 middle = {0.2, -0.1, wall_z - radius - 0.02};
-    show s;
-    zoom = 2.0;
-    open_show(&s, NULL);
-    zoom = 1.0;
-    see(&s.rig, false);
+    begin(2.0, NULL);
+    draw(false);
     for (int i = 0; i < COUNT; i++) {
-        double z = sphere_depth(middle, radius, (i % WIDTH - s.rig.depth.cx) / s.rig.depth.fx,
-                                (i / WIDTH - s.rig.depth.cy) / s.rig.depth.fy);
+        double z = sphere_depth(middle, radius, (i % WIDTH - rig.depth.cx) / rig.depth.fx,
+                                (i / WIDTH - rig.depth.cy) / rig.depth.fy);
         kind[i] = z > 0.0 ? BALL : WALL;
-        depth[i] = z > 0.0 ? (float)z : depth[i];
+        truth[i] = z > 0.0 ? (float)z : truth[i];
     }
-    int there = count_known(watch(&s, 120));
+    int there = count_known(watch(120));
     for (int i = 0; i < COUNT; i++) {
-        depth[i] = kind[i] == BALL ? (float)wall_z : depth[i];
+        truth[i] = kind[i] == BALL ? (float)wall_z : truth[i];
     }
-    int left = count_known(watch(&s, 16));
-    print_message("of %d pixels with a back %d still have one\n", there, left);
+    int left = count_known(watch(16));
     assert_true(there > 300 && left * 50 < there);
-    rlf_reconstruct_destroy(&s.stage);
 }
 
 /* A surface keeps its plane while it is valid, also while a new one is published. */
-static void planes_of_valid_surfaces_stay(void **state)
+TEST_CASE(planes_of_valid_surfaces_stay)
 {
-    (void)state;
     static float kept[COUNT];
-    show s;
     int changes = 0;
     int64_t version = 0;
-    open_show(&s, NULL);
-    see(&s.rig, true);
+    begin(1.0, NULL);
+    draw(true);
     for (int k = 0; k < 60; k++) {
-        const rlf_surface *surface = next(&s);
+        const rlf_surface *surface = watch(1);
         const float *plane = surface->background_thickness;
         changes += surface->background_version != version;
         version = surface->background_version;
         memcpy(kept, plane, sizeof kept);
         for (int later = 1; later < RLF_RECONSTRUCT_SURFACES; later++) {
-            (void)next(&s);
+            (void)watch(1);
             assert_memory_equal(kept, plane, sizeof kept);
         }
     }
     assert_true(changes >= 3); /* learnt, found, and found again when the means were better */
     assert_true(changes < 10);
-    rlf_reconstruct_destroy(&s.stage);
 }
 
-static void workers_change_nothing(void **state)
+TEST_CASE(workers_change_nothing)
 {
-    (void)state;
     static float one[COUNT];
-    if (!heavy_is_whole()) {
-        skip(); /* unit.surface_thickness has them with sanitizers */
-    }
+    heavy_needs_whole(); /* unit.surface_stage has them with sanitizers */
     for (int32_t workers = 1; workers <= 3; workers += 2) {
-        rlf_pool *pool = NULL;
-        show s;
-        assert_int_equal(rlf_pool_create(workers, &pool), RLF_OK);
-        open_show(&s, pool);
-        see(&s.rig, true);
-        const rlf_surface *surface = watch(&s, FRAMES);
+        rlf_pool *pool = pool_of(workers);
+        begin(1.0, pool);
+        draw(true);
+        const rlf_surface *surface = watch(FRAMES);
         if (workers == 1) {
             memcpy(one, surface->background_thickness, sizeof one);
         } else {
             assert_memory_equal(one, surface->background_thickness, sizeof one);
         }
-        rlf_reconstruct_destroy(&s.stage);
+        stop_seeing(NULL);
         rlf_pool_destroy(&pool);
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(backs_of_what_stands_are_found),
-        cmocka_unit_test(a_side_at_a_low_angle_shows_how_deep_a_box_is),
-        cmocka_unit_test(a_box_that_the_border_cuts_goes_on),
-        cmocka_unit_test(what_has_left_has_no_back),
-        cmocka_unit_test(a_wall_is_not_thick_where_a_ball_was),
-        cmocka_unit_test(planes_of_valid_surfaces_stay),
-        cmocka_unit_test(workers_change_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(NULL, stop_seeing)

@@ -111,7 +111,7 @@ static void watch(still_view *s, float lasting, errors out[2])
     static float always[COUNT];
     seen_view *v = &s->view;
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &v->rig);
-    rlf_reconstruct *stage = seen_view_stage(&def);
+    rlf_reconstruct *stage = stage_of(&def);
     v->random = (analytic_random){5};
     for (int i = 0; i < COUNT; i++) {
         always[i] = lasting * (seen_view_noisy(v, v->truth[i]) - v->truth[i]);
@@ -130,7 +130,7 @@ static void watch(still_view *s, float lasting, errors out[2])
     rlf_reconstruct_destroy(&stage);
 }
 
-static void what_is_curved_sharpens(void **state)
+TEST_CASE(what_is_curved_sharpens)
 {
     errors e[2];
     watch(*state, 0.0f, e);
@@ -139,7 +139,7 @@ static void what_is_curved_sharpens(void **state)
 }
 
 /* Where averaging does not help, nothing is taken for curved that is not. */
-static void noise_that_lasts_is_no_curve(void **state)
+TEST_CASE(noise_that_lasts_is_no_curve)
 {
     errors e[2];
     watch(*state, 0.8f, e);
@@ -147,11 +147,4 @@ static void noise_that_lasts_is_no_curve(void **state)
     assert_true(e[1].flat < 1.05 * e[0].flat);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_curved_sharpens),
-        cmocka_unit_test(noise_that_lasts_is_no_curve),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+TEST_GROUP(set_up, tear_down)

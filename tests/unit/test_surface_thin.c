@@ -109,14 +109,14 @@ static double share_known(const staged_view *f, const rlf_surface *s, int32_t *o
     return book > 0 ? (double)known / book : 0.0;
 }
 
-static void what_has_turned_away_is_remembered(void **state)
+TEST_CASE(what_has_turned_away_is_remembered)
 {
     staged_view *f = *state;
     const rlf_surface *s = carry(f, 22);       /* 11 cm beside the axis: two degrees */
     assert_true(mean_back_error(f, s) < 0.07); /* by its shape alone: 0.13 */
 }
 
-static void what_is_lost_is_still_there(void **state)
+TEST_CASE(what_is_lost_is_still_there)
 {
     staged_view *f = *state;
     int32_t off;
@@ -129,7 +129,7 @@ static void what_is_lost_is_still_there(void **state)
     }
 }
 
-static void what_has_left_is_gone_at_once(void **state)
+TEST_CASE(what_has_left_is_gone_at_once)
 {
     staged_view *f = *state;
     int32_t off;
@@ -142,7 +142,7 @@ static void what_has_left_is_gone_at_once(void **state)
 
 /* A gap that stays, as of something dark in the wall, holds nothing for longer than 0.3 s, and a
  * plate for no longer than 0.6 s: it is lost there, nothing is seen to pass it. */
-static void a_gap_does_not_keep_it(void **state)
+TEST_CASE(a_gap_does_not_keep_it)
 {
     const int32_t LONGEST = 20;
     staged_view *f = *state;
@@ -157,13 +157,4 @@ static void a_gap_does_not_keep_it(void **state)
     assert_int_equal(off, 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_has_turned_away_is_remembered),
-        cmocka_unit_test(what_is_lost_is_still_there),
-        cmocka_unit_test(what_has_left_is_gone_at_once),
-        cmocka_unit_test(a_gap_does_not_keep_it),
-    };
-    return cmocka_run_group_tests(tests, make_fixture, staged_view_destroy);
-}
+TEST_GROUP(make_fixture, staged_view_destroy)

@@ -81,9 +81,8 @@ static double error_of(const room_view *v, rlf_quat turn, double *out_confidence
 
 static room_view view;
 
-static void a_room_is_found_from_any_usual_camera(void **state)
+TEST_CASE(a_room_is_found_from_any_usual_camera)
 {
-    (void)state;
     double confidence;
     for (double down = -15.0; down <= 50.0; down += 5.0) {
         for (double roll = -20.0; roll <= 20.0; roll += 10.0) {
@@ -95,9 +94,8 @@ static void a_room_is_found_from_any_usual_camera(void **state)
     }
 }
 
-static void a_table_alone_is_enough(void **state)
+TEST_CASE(a_table_alone_is_enough)
 {
-    (void)state;
     double confidence;
     for (double down = 10.0; down <= 60.0; down += 10.0) {
         rlf_quat turn = camera_turn(down, 5.0);
@@ -107,9 +105,8 @@ static void a_table_alone_is_enough(void **state)
 }
 
 /* The wall ahead has most of the picture; the floor is a strip. */
-static void a_wall_is_no_floor(void **state)
+TEST_CASE(a_wall_is_no_floor)
 {
-    (void)state;
     double confidence;
     const plane near_wall[2] = {room[0], room[4]};
     rlf_quat turn = camera_turn(0.0, 3.0);
@@ -168,9 +165,8 @@ static void look_at_table(rlf_quat turn)
 }
 
 /* A desk arm's camera hangs upside down, or on its side. */
-static void things_on_a_table_tell_for_any_roll(void **state)
+TEST_CASE(things_on_a_table_tell_for_any_roll)
 {
-    (void)state;
     double confidence;
     for (double roll = 0.0; roll < 360.0; roll += 30.0) {
         rlf_quat turn = camera_turn(40.0, roll);
@@ -182,9 +178,8 @@ static void things_on_a_table_tell_for_any_roll(void **state)
 }
 
 /* Its walls are as good floors: whatever is answered, it is not sure. */
-static void a_rolled_empty_room_is_not_sure(void **state)
+TEST_CASE(a_rolled_empty_room_is_not_sure)
 {
-    (void)state;
     double confidence;
     for (double roll = 60.0; roll <= 300.0; roll += 30.0) {
         rlf_quat turn = camera_turn(10.0, roll);
@@ -195,9 +190,8 @@ static void a_rolled_empty_room_is_not_sure(void **state)
 }
 
 /* Who set a camera up to be level with a floor and walls: sure, with nothing standing there. */
-static void a_level_camera_in_an_empty_room_is_sure(void **state)
+TEST_CASE(a_level_camera_in_an_empty_room_is_sure)
 {
-    (void)state;
     double confidence;
     for (double off = -4.0; off <= 4.0; off += 4.0) {
         rlf_quat turn = camera_turn(off < 0.0 ? 0.0 : off, 0.0);
@@ -212,9 +206,8 @@ static void a_level_camera_in_an_empty_room_is_sure(void **state)
 }
 
 /* Before a wall ramps are as level as a tilted camera says; a wall alone says nothing. */
-static void a_ramp_and_a_tilted_wall_do_not_make_sure(void **state)
+TEST_CASE(a_ramp_and_a_tilted_wall_do_not_make_sure)
 {
-    (void)state;
     double confidence;
     for (double slope = 12.0; slope <= 30.0; slope += 6.0) {
         const double s = sin(slope * RAD), c = cos(slope * RAD);
@@ -231,9 +224,8 @@ static void a_ramp_and_a_tilted_wall_do_not_make_sure(void **state)
     }
 }
 
-static void what_tells_nothing_is_told_so(void **state)
+TEST_CASE(what_tells_nothing_is_told_so)
 {
-    (void)state;
     double confidence;
     rlf_quat level = camera_turn(0.0, 0.0), down = camera_turn(88.0, 0.0);
     look(&view, &room[4], 1, level, 0.05); /* one wall, frontal */
@@ -245,19 +237,4 @@ static void what_tells_nothing_is_told_so(void **state)
     look(&view, room, 1, down, 0.05); /* straight down: a floor or a wall? */
     error_of(&view, down, &confidence);
     assert_true(confidence < RLF_UP_SURE);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_room_is_found_from_any_usual_camera),
-        cmocka_unit_test(a_table_alone_is_enough),
-        cmocka_unit_test(a_wall_is_no_floor),
-        cmocka_unit_test(things_on_a_table_tell_for_any_roll),
-        cmocka_unit_test(a_rolled_empty_room_is_not_sure),
-        cmocka_unit_test(a_level_camera_in_an_empty_room_is_sure),
-        cmocka_unit_test(a_ramp_and_a_tilted_wall_do_not_make_sure),
-        cmocka_unit_test(what_tells_nothing_is_told_so),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

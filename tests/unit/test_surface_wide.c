@@ -50,7 +50,7 @@ static rlf_reconstruct *make_stage(const seen_view *v, bool wide)
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &v->rig);
     def.background_method = RLF_BACKGROUND_OFF;
     def.enable_wide_planes = wide;
-    return seen_view_stage(&def);
+    return stage_of(&def);
 }
 
 typedef struct errors {
@@ -97,7 +97,7 @@ static rlf_vec3 wall_normal(const seen_view *v, int i)
     return rlf_normalize(rlf_vec3_make(0.3, 0.2, -1.0));
 }
 
-static void a_wall_is_flatter(void **state)
+TEST_CASE_WITH(a_wall_is_flatter, begin_noise, NULL)
 {
     seen_view *v = *state;
     for (int i = 0; i < COUNT; i++) {
@@ -116,7 +116,7 @@ static rlf_vec3 corner_normal(const seen_view *v, int i)
     return rlf_normalize(rlf_vec3_make(v->ray_x[i] < 0.0f ? 1.0 : -1.0, 0.0, -1.0));
 }
 
-static void a_corner_stays_sharp(void **state)
+TEST_CASE_WITH(a_corner_stays_sharp, begin_noise, NULL)
 {
     seen_view *v = *state;
     for (int i = 0; i < COUNT; i++) {
@@ -139,7 +139,7 @@ static rlf_vec3 ball_normal(const seen_view *v, int i)
     return rlf_normalize(rlf_sub(p, ball));
 }
 
-static void a_ball_stays_round(void **state)
+TEST_CASE_WITH(a_ball_stays_round, begin_noise, NULL)
 {
     seen_view *v = *state;
     for (int i = 0; i < COUNT; i++) {
@@ -152,7 +152,7 @@ static void a_ball_stays_round(void **state)
 }
 
 /* What stands 6 cm before a wall, 24 pixels wide. */
-static void a_step_stays_where_it_is(void **state)
+TEST_CASE_WITH(a_step_stays_where_it_is, begin_noise, NULL)
 {
     seen_view *v = *state;
     for (int i = 0; i < COUNT; i++) {
@@ -170,9 +170,8 @@ static void a_step_stays_where_it_is(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
-static void a_fine_sensor_is_not_touched(void **state)
+TEST_CASE(a_fine_sensor_is_not_touched)
 {
-    (void)state;
     seen_view fine;
     seen_view_create(&fine, analytic_rig(WIDTH, HEIGHT), 3);
     for (int i = 0; i < COUNT; i++) {
@@ -197,7 +196,7 @@ static double behind_error(seen_view *v, bool wide)
 {
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &v->rig);
     def.enable_wide_planes = wide;
-    rlf_reconstruct *stage = seen_view_stage(&def);
+    rlf_reconstruct *stage = stage_of(&def);
     for (int32_t k = 0; k < 50; k++) {
         (void)seen_view_process(v, stage, k);
     }
@@ -219,7 +218,7 @@ static double behind_error(seen_view *v, bool wide)
 }
 
 /* Noise that stays from frame to frame, as structured light's does: no mean over time helps. */
-static void so_is_what_is_behind(void **state)
+TEST_CASE_WITH(so_is_what_is_behind, begin_noise, NULL)
 {
     seen_view *v = *state;
     for (int i = 0; i < COUNT; i++) {
@@ -234,9 +233,8 @@ static void so_is_what_is_behind(void **state)
 }
 
 /* Odd sizes down to less than a block; everything missing but a pixel in seven. */
-static void any_size_will_do(void **state)
+TEST_CASE(any_size_will_do)
 {
-    (void)state;
     for (int32_t size = 1; size < 40; size += size < 8 ? 1 : 7) {
         seen_view v;
         rlf_rig rig = analytic_rig(size, size + 2);
@@ -259,16 +257,4 @@ static void any_size_will_do(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(a_wall_is_flatter, begin_noise),
-        cmocka_unit_test_setup(so_is_what_is_behind, begin_noise),
-        cmocka_unit_test_setup(a_corner_stays_sharp, begin_noise),
-        cmocka_unit_test_setup(a_ball_stays_round, begin_noise),
-        cmocka_unit_test_setup(a_step_stays_where_it_is, begin_noise),
-        cmocka_unit_test(a_fine_sensor_is_not_touched),
-        cmocka_unit_test(any_size_will_do),
-    };
-    return cmocka_run_group_tests(tests, set_up, seen_view_destroy);
-}
+TEST_GROUP(set_up, seen_view_destroy)

@@ -3,8 +3,8 @@
  */
 
 #include "heavy.h"
-#include "relief/synthetic.h"
 #include "sim/scene.h"
+#include "created.h"
 #include "test.h"
 
 #include <math.h>
@@ -14,26 +14,6 @@
 #define WIDTH 512
 #define HEIGHT 424
 #define PIXELS (WIDTH * HEIGHT)
-
-static rlf_source *open_source(const char *text, rlf_pool *pool)
-{
-    rlf_synthetic_def def = rlf_synthetic_def_default();
-    rlf_source *source = NULL;
-    assert_int_equal(rlf_synthetic_parse(text, &def), RLF_OK);
-    def.pool = pool;
-    assert_int_equal(rlf_synthetic_create(&def, &source), RLF_OK);
-    return source;
-}
-
-/* Goes on to the frame with this sequence number. */
-static rlf_frame frame_at(rlf_source *source, uint64_t sequence)
-{
-    rlf_frame frame;
-    do {
-        assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
-    } while (frame.sequence < sequence);
-    return frame;
-}
 
 static rlf_vec3 ray_of(const rlf_camera *camera, int i)
 {
@@ -91,13 +71,12 @@ static void check_truth(rlf_source *source, const rlf_frame *frame)
     assert_true(agree_count > 0.99 * label_count);
 }
 
-static void truth_agrees_with_the_distance_to_the_scene(void **state)
+TEST_CASE(truth_agrees_with_the_distance_to_the_scene)
 {
-    (void)state;
     static const char *const texts[] = {"synthetic:room?color=0", "synthetic:thesis?color=0",
                                         "synthetic:book?color=0", "synthetic:hand?color=0"};
     for (int k = 0; k < heavy(4, 2); k++) {
-        rlf_source *source = open_source(texts[k], NULL);
+        rlf_source *source = synthetic_named(texts[k], NULL);
         for (uint64_t at = 0; at <= 180; at += 60) {
             rlf_frame frame = frame_at(source, at);
             check_truth(source, &frame);
@@ -106,10 +85,9 @@ static void truth_agrees_with_the_distance_to_the_scene(void **state)
     }
 }
 
-static void without_noise_depth_is_truth_in_millimetres(void **state)
+TEST_CASE(without_noise_depth_is_truth_in_millimetres)
 {
-    (void)state;
-    rlf_source *source = open_source("synthetic:room?noise=0&color=0", NULL);
+    rlf_source *source = synthetic_named("synthetic:room?noise=0&color=0", NULL);
     for (uint64_t at = 0; at <= 120; at += 60) {
         rlf_frame frame = frame_at(source, at);
         const rlf_truth *truth = rlf_source_get_truth(source);
@@ -125,10 +103,9 @@ static void without_noise_depth_is_truth_in_millimetres(void **state)
     rlf_source_destroy(&source);
 }
 
-static void the_ball_is_two_radii_thick(void **state)
+TEST_CASE(the_ball_is_two_radii_thick)
 {
-    (void)state;
-    rlf_source *source = open_source("synthetic:empty?color=0", NULL);
+    rlf_source *source = synthetic_named("synthetic:empty?color=0", NULL);
     rlf_frame frame = frame_at(source, 0);
     const rlf_truth *truth = rlf_source_get_truth(source);
     double thickest = 0.0;
@@ -144,13 +121,12 @@ static void the_ball_is_two_radii_thick(void **state)
 }
 
 /* A point of a moving surface keeps distance 0: d(distance)/dt = -n.v at a fixed point. */
-static void velocity_is_what_the_distance_field_does(void **state)
+TEST_CASE(velocity_is_what_the_distance_field_does)
 {
-    (void)state;
     static synth_scene scene;
     const double h = 1e-4;
     synth_scene_build(&scene, RLF_SYNTHETIC_ROOM);
-    rlf_source *source = open_source("synthetic:room?color=0", NULL);
+    rlf_source *source = synthetic_named("synthetic:room?color=0", NULL);
     int count = 0;
     int good = 0;
     double fastest = 0.0;
@@ -184,15 +160,14 @@ static void velocity_is_what_the_distance_field_does(void **state)
     assert_true(fastest > 0.5 && fastest < 5.0);
 }
 
-static void the_room_is_empty_at_first(void **state)
+TEST_CASE(the_room_is_empty_at_first)
 {
-    (void)state;
     static const char *const texts[] = {"synthetic:room", "synthetic:thesis", "synthetic:book",
                                         "synthetic:hand"};
     for (size_t k = 0; k < 4; k++) {
         char text[64];
         (void)snprintf(text, sizeof(text), "%s?color=0", texts[k]);
-        rlf_source *source = open_source(text, NULL);
+        rlf_source *source = synthetic_named(text, NULL);
         int first = 0;
         for (int frame = 0; frame < 120 && first == 0; frame++) {
             (void)frame_at(source, (uint64_t)frame);
@@ -206,10 +181,9 @@ static void the_room_is_empty_at_first(void **state)
     }
 }
 
-static void the_chair_is_taken_away(void **state)
+TEST_CASE(the_chair_is_taken_away)
 {
-    (void)state;
-    rlf_source *source = open_source("synthetic:chair?color=0", NULL);
+    rlf_source *source = synthetic_named("synthetic:chair?color=0", NULL);
     int32_t before = 0;
     int32_t after = 0;
     (void)frame_at(source, 119);
@@ -264,11 +238,10 @@ static void check_feet(uint64_t person)
 }
 
 /* Cameras know no truth: it is made when it is asked for, whatever was asked before. */
-static void truth_does_not_depend_on_when_it_was_asked_for(void **state)
+TEST_CASE(truth_does_not_depend_on_when_it_was_asked_for)
 {
-    (void)state;
-    rlf_source *often = open_source("synthetic:chair?color=0", NULL);
-    rlf_source *seldom = open_source("synthetic:chair?color=0", NULL);
+    rlf_source *often = synthetic_named("synthetic:chair?color=0", NULL);
+    rlf_source *seldom = synthetic_named("synthetic:chair?color=0", NULL);
     for (uint64_t i = 90; i < 130; i++) {
         (void)frame_at(often, i);
         (void)frame_at(seldom, i);
@@ -288,9 +261,8 @@ static void truth_does_not_depend_on_when_it_was_asked_for(void **state)
     rlf_source_destroy(&seldom);
 }
 
-static void feet_carry_the_person(void **state)
+TEST_CASE(feet_carry_the_person)
 {
-    (void)state;
     for (uint64_t person = 1; person <= 8; person++) {
         check_feet(person);
     }
@@ -298,9 +270,8 @@ static void feet_carry_the_person(void **state)
 
 /* Person 1 is the adult that the table describes; the others are as tall and as broad as people
  * are, no two alike. */
-static void people_differ(void **state)
+TEST_CASE(people_differ)
 {
-    (void)state;
     enum { PEOPLE = 400 };
     synth_figure figure, second;
     synth_figure_make(&figure, 1, false);
@@ -352,14 +323,12 @@ static uint64_t hash_frames(rlf_source *source)
     return hash;
 }
 
-static void same_def_gives_the_same_bits(void **state)
+TEST_CASE(same_def_gives_the_same_bits)
 {
-    (void)state;
-    rlf_pool *pool = NULL;
-    assert_int_equal(rlf_pool_create(3, &pool), RLF_OK);
-    rlf_source *one = open_source("synthetic:room?color=320x180", NULL);
-    rlf_source *three = open_source("synthetic:room?color=320x180", pool);
-    rlf_source *other = open_source("synthetic:room?color=320x180&seed=2", NULL);
+    rlf_pool *pool = pool_of(3);
+    rlf_source *one = synthetic_named("synthetic:room?color=320x180", NULL);
+    rlf_source *three = synthetic_named("synthetic:room?color=320x180", pool);
+    rlf_source *other = synthetic_named("synthetic:room?color=320x180&seed=2", NULL);
     uint64_t hash = hash_frames(one);
     uint64_t allocations = rlf_alloc_count();
     assert_true(hash_frames(three) == hash);
@@ -374,10 +343,9 @@ static void same_def_gives_the_same_bits(void **state)
     rlf_pool_destroy(&pool);
 }
 
-static void time_and_end_follow_the_def(void **state)
+TEST_CASE(time_and_end_follow_the_def)
 {
-    (void)state;
-    rlf_source *source = open_source("synthetic:empty?color=0&fps=50&frames=3", NULL);
+    rlf_source *source = synthetic_named("synthetic:empty?color=0&fps=50&frames=3", NULL);
     const rlf_source_info *info = rlf_source_get_info(source);
     assert_string_equal(info->name, "synthetic:empty");
     assert_int_equal(info->frame_count, 3);
@@ -385,7 +353,7 @@ static void time_and_end_follow_the_def(void **state)
     assert_false(info->rig.has_color);
     rlf_frame frame;
     for (int i = 0; i < 3; i++) {
-        assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+        frame = frame_of(source);
         assert_int_equal(frame.sequence, i);
         assert_int_equal(frame.time_ns, i * 20000000);
     }
@@ -394,11 +362,10 @@ static void time_and_end_follow_the_def(void **state)
 }
 
 /* The picture is the empty room again where nobody is, and the rig is the documented one. */
-static void colour_restores_what_the_person_covered(void **state)
+TEST_CASE(colour_restores_what_the_person_covered)
 {
-    (void)state;
-    rlf_source *room = open_source("synthetic:room?color=240x135", NULL);
-    rlf_source *empty = open_source("synthetic:empty?color=240x135", NULL);
+    rlf_source *room = synthetic_named("synthetic:room?color=240x135", NULL);
+    rlf_source *empty = synthetic_named("synthetic:empty?color=240x135", NULL);
     size_t size = 240 * 135 * 4;
     rlf_frame now = frame_at(room, 0);
     rlf_frame still = frame_at(empty, 0);
@@ -420,9 +387,8 @@ static rlf_result no_frame(void *self, rlf_frame *out)
     return RLF_END;
 }
 
-static void distance_needs_a_synthetic_source(void **state)
+TEST_CASE(distance_needs_a_synthetic_source)
 {
-    (void)state;
     rlf_source_info info = {.name = "other"};
     info.rig.depth = (rlf_camera){.width = 2, .height = 2, .fx = 1, .fy = 1};
     rlf_source_methods methods = {.next = no_frame};
@@ -433,29 +399,9 @@ static void distance_needs_a_synthetic_source(void **state)
                      RLF_ERROR_INVALID);
     assert_non_null(strstr(rlf_error_text(), "other"));
     rlf_source_destroy(&source);
-    source = open_source("synthetic:thesis?color=0", NULL);
+    source = synthetic_named("synthetic:thesis?color=0", NULL);
     assert_int_equal(rlf_synthetic_distance(source, rlf_vec3_make(0, 0, 1), &distance, NULL, NULL),
                      RLF_OK);
     assert_float_equal(distance, 1.25, 1e-12); /* the floor */
     rlf_source_destroy(&source);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(truth_agrees_with_the_distance_to_the_scene),
-        cmocka_unit_test(without_noise_depth_is_truth_in_millimetres),
-        cmocka_unit_test(the_ball_is_two_radii_thick),
-        cmocka_unit_test(velocity_is_what_the_distance_field_does),
-        cmocka_unit_test(the_room_is_empty_at_first),
-        cmocka_unit_test(the_chair_is_taken_away),
-        cmocka_unit_test(truth_does_not_depend_on_when_it_was_asked_for),
-        cmocka_unit_test(feet_carry_the_person),
-        cmocka_unit_test(people_differ),
-        cmocka_unit_test(same_def_gives_the_same_bits),
-        cmocka_unit_test(time_and_end_follow_the_def),
-        cmocka_unit_test(colour_restores_what_the_person_covered),
-        cmocka_unit_test(distance_needs_a_synthetic_source),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -17,9 +17,8 @@ static synth_hit search(const synth_scene *scene, const synth_ray *ray)
     return best;
 }
 
-static void test_nothing_is_overlooked(void **state)
+TEST_CASE(test_nothing_is_overlooked)
 {
-    (void)state;
     static synth_scene rest, scene;
     static synth_candidates candidates;
     const synth_view view = {
@@ -51,10 +50,4 @@ static void test_nothing_is_overlooked(void **state)
         }
     }
     assert_true(hits > 100000);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_nothing_is_overlooked)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* The colour camera's picture where the room covers a mover. */
 
-#include "relief/synthetic.h"
+#include "created.h"
 #include "test.h"
 
 #include <math.h>
@@ -62,18 +62,17 @@ static double off_mixture(const uint8_t *c, const uint8_t *a, const uint8_t *b)
 }
 
 /* What lies behind both, the wall, has no part in the edge between a leg and what covers it. */
-static void a_covered_outline_is_a_mixture_of_both_sides(void **state)
+TEST_CASE(a_covered_outline_is_a_mixture_of_both_sides)
 {
-    (void)state;
     rlf_synthetic_def def = rlf_synthetic_def_default();
     rlf_source *source;
     rlf_frame frame;
     double sum = 0.0;
     int32_t count = 0;
     def.enable_truth = false;
-    assert_int_equal(rlf_synthetic_create(&def, &source), RLF_OK);
+    source = synthetic_of(&def);
     for (int32_t n = 0; n < 120; n++) {
-        assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+        frame = frame_of(source);
         if (n % 20 != 0) {
             continue;
         }
@@ -99,9 +98,8 @@ static void a_covered_outline_is_a_mixture_of_both_sides(void **state)
 
 /* A room that opens soon is another picture at first, sharper from above with every frame, and the
  * same from the frame on that has sharpened the last band; its depth is the same throughout. */
-static void a_room_that_opens_soon_becomes_the_same(void **state)
+TEST_CASE(a_room_that_opens_soon_becomes_the_same)
 {
-    (void)state;
     enum { W = 96, H = 54, BAND = 16 };
     rlf_synthetic_def def = rlf_synthetic_def_default();
     rlf_source *sources[2];
@@ -111,7 +109,7 @@ static void a_room_that_opens_soon_becomes_the_same(void **state)
     def.scene = RLF_SYNTHETIC_CHAIR; /* two states of the room */
     for (int k = 0; k < 2; k++) {
         def.opens_soon = k == 1;
-        assert_int_equal(rlf_synthetic_create(&def, &sources[k]), RLF_OK);
+        sources[k] = synthetic_of(&def);
     }
     for (int32_t n = 0; n < 130; n++) { /* the chair goes at 120 */
         rlf_frame frames[2];
@@ -128,13 +126,4 @@ static void a_room_that_opens_soon_becomes_the_same(void **state)
     for (int k = 0; k < 2; k++) {
         rlf_source_destroy(&sources[k]);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_room_that_opens_soon_becomes_the_same),
-        cmocka_unit_test(a_covered_outline_is_a_mixture_of_both_sides),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

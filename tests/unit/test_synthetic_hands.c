@@ -41,9 +41,8 @@ static int32_t hands_at(rlf_source *source, double t, rlf_synthetic_hand *out)
     return count;
 }
 
-static void joints_lie_inside_the_hand(void **state)
+TEST_CASE(joints_lie_inside_the_hand)
 {
-    (void)state;
     for (int act = 0; act < RLF_SYNTHETIC_ACT_COUNT; act++) {
         rlf_synthetic_def def = def_of((rlf_synthetic_act)act, (uint64_t)act);
         def.hands.view = (rlf_synthetic_view)(act % VIEWS);
@@ -65,9 +64,8 @@ static void joints_lie_inside_the_hand(void **state)
 }
 
 /* Rays at the tips of an open hand meet them: nothing but their own skin is before them. */
-static void tips_are_seen_at_their_depth(void **state)
+TEST_CASE(tips_are_seen_at_their_depth)
 {
-    (void)state;
     for (uint64_t seed = 1; seed <= 3; seed++) {
         rlf_synthetic_def def = def_of(RLF_SYNTHETIC_ACT_OPEN, seed);
         rlf_source *source = open_def(&def);
@@ -94,9 +92,8 @@ static void tips_are_seen_at_their_depth(void **state)
     }
 }
 
-static void hands_have_true_sizes(void **state)
+TEST_CASE(hands_have_true_sizes)
 {
-    (void)state;
     double least = 1.0, most = 0.0;
     for (uint64_t seed = 1; seed <= 16; seed++) {
         rlf_synthetic_def def = def_of(RLF_SYNTHETIC_ACT_FLAT, seed);
@@ -136,9 +133,8 @@ static double finger_gap(const rlf_synthetic_task *task, const rlf_synthetic_han
     return rlf_min(tip, joint) - hand->tip_radius[finger];
 }
 
-static void fingers_close_on_the_body(void **state)
+TEST_CASE(fingers_close_on_the_body)
 {
-    (void)state;
     for (uint64_t seed = 1; seed <= 12; seed++) {
         rlf_synthetic_def def = def_of((rlf_synthetic_act)(seed % 2), seed);
         def.hands.body = (rlf_synthetic_body)(seed / 2 % 3);
@@ -157,9 +153,8 @@ static void fingers_close_on_the_body(void **state)
     }
 }
 
-static void bodies_stand_on_the_table_or_hang(void **state)
+TEST_CASE(bodies_stand_on_the_table_or_hang)
 {
-    (void)state;
     for (int act = 0; act <= RLF_SYNTHETIC_ACT_PASS; act++) {
         rlf_synthetic_def def = def_of((rlf_synthetic_act)act, 7);
         rlf_source *source = open_def(&def);
@@ -178,9 +173,8 @@ static void bodies_stand_on_the_table_or_hang(void **state)
     }
 }
 
-static void the_hand_carries_at_the_given_speed(void **state)
+TEST_CASE(the_hand_carries_at_the_given_speed)
 {
-    (void)state;
     for (int act = 0; act < RLF_SYNTHETIC_ACT_THROW; act++) {
         rlf_synthetic_def def = def_of((rlf_synthetic_act)act, 3);
         def.speed = 0.1 + 0.1 * act;
@@ -197,9 +191,8 @@ static void the_hand_carries_at_the_given_speed(void **state)
     }
 }
 
-static void a_throw_opens_at_its_speed(void **state)
+TEST_CASE(a_throw_opens_at_its_speed)
 {
-    (void)state;
     rlf_synthetic_def def = def_of(RLF_SYNTHETIC_ACT_THROW, 11);
     rlf_source *source = open_def(&def);
     rlf_synthetic_task task = task_of(source);
@@ -211,9 +204,8 @@ static void a_throw_opens_at_its_speed(void **state)
 }
 
 /* A thumb and an index that meet, and the widths of other gestures. */
-static void gestures_are_what_they_are_called(void **state)
+TEST_CASE(gestures_are_what_they_are_called)
 {
-    (void)state;
     const double least[4] = {0.05, 0.0, 0.0, 0.03};
     const double most[4] = {0.2, 0.09, 0.002, 0.2};
     for (int act = RLF_SYNTHETIC_ACT_OPEN; act <= RLF_SYNTHETIC_ACT_POINT; act++) {
@@ -228,9 +220,8 @@ static void gestures_are_what_they_are_called(void **state)
     }
 }
 
-static void same_seed_same_bits(void **state)
+TEST_CASE(same_seed_same_bits)
 {
-    (void)state;
     rlf_synthetic_def def = def_of(RLF_SYNTHETIC_ACT_TWO_HANDS, 5);
     rlf_source *a = open_def(&def), *b = open_def(&def);
     rlf_frame x, y;
@@ -243,9 +234,8 @@ static void same_seed_same_bits(void **state)
     rlf_source_destroy(&b);
 }
 
-static void sources_are_named(void **state)
+TEST_CASE(sources_are_named)
 {
-    (void)state;
     rlf_synthetic_def def = rlf_synthetic_def_default();
     assert_int_equal(rlf_synthetic_parse("synthetic:hands?grasp=two_hands&view=above&distance=1.5"
                                          "&body=ball&size=0.08&hold=10&speed=0.2",
@@ -264,9 +254,8 @@ static void sources_are_named(void **state)
     assert_null(rlf_synthetic_act_name(RLF_SYNTHETIC_ACT_COUNT));
 }
 
-static void other_sources_have_no_hands(void **state)
+TEST_CASE(other_sources_have_no_hands)
 {
-    (void)state;
     rlf_synthetic_def def = rlf_synthetic_def_default();
     def.enable_color = false;
     rlf_source *source = open_def(&def);
@@ -279,22 +268,4 @@ static void other_sources_have_no_hands(void **state)
     def.scene = RLF_SYNTHETIC_HANDS;
     def.hands.distance = 0.2;
     assert_int_equal(rlf_synthetic_create(&def, &source), RLF_ERROR_INVALID);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(joints_lie_inside_the_hand),
-        cmocka_unit_test(tips_are_seen_at_their_depth),
-        cmocka_unit_test(hands_have_true_sizes),
-        cmocka_unit_test(fingers_close_on_the_body),
-        cmocka_unit_test(bodies_stand_on_the_table_or_hang),
-        cmocka_unit_test(the_hand_carries_at_the_given_speed),
-        cmocka_unit_test(a_throw_opens_at_its_speed),
-        cmocka_unit_test(gestures_are_what_they_are_called),
-        cmocka_unit_test(same_seed_same_bits),
-        cmocka_unit_test(sources_are_named),
-        cmocka_unit_test(other_sources_have_no_hands),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

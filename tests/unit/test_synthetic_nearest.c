@@ -1,5 +1,5 @@
 /* The true scene at any time: distances, and the velocity that moves them. */
-#include "relief/synthetic.h"
+#include "created.h"
 #include "test.h"
 
 #include <math.h>
@@ -10,9 +10,7 @@ static rlf_source *open_scene(rlf_synthetic_scene scene, double speed)
     def.scene = scene;
     def.speed = speed;
     def.enable_color = false;
-    rlf_source *source = NULL;
-    assert_int_equal(rlf_synthetic_create(&def, &source), RLF_OK);
-    return source;
+    return synthetic_of(&def);
 }
 
 static rlf_synthetic_hit nearest(rlf_source *source, double t, rlf_vec3 p)
@@ -23,9 +21,8 @@ static rlf_synthetic_hit nearest(rlf_source *source, double t, rlf_vec3 p)
 }
 
 /* d/dt of the distance from a fixed point is -n.v of the surface's nearest point. */
-static void distance_changes_with_the_velocity(void **state)
+TEST_CASE(distance_changes_with_the_velocity)
 {
-    (void)state;
     rlf_source *source = open_scene(RLF_SYNTHETIC_ROOM, 0.5);
     int moving = 0;
     for (int i = 0; i < 200; i++) {
@@ -46,9 +43,8 @@ static void distance_changes_with_the_velocity(void **state)
     rlf_source_destroy(&source);
 }
 
-static void trays_move_at_the_given_speed(void **state)
+TEST_CASE(trays_move_at_the_given_speed)
 {
-    (void)state;
     rlf_source *lift = open_scene(RLF_SYNTHETIC_LIFT, 2.0);
     rlf_synthetic_hit rest = nearest(lift, 2.0, rlf_vec3_make(0, 0.7, 1.5));
     assert_int_equal(rest.label, RLF_SYNTHETIC_LABEL_TRAY);
@@ -68,22 +64,11 @@ static void trays_move_at_the_given_speed(void **state)
     rlf_source_destroy(&carry);
 }
 
-static void furniture_is_there_until_it_is_taken(void **state)
+TEST_CASE(furniture_is_there_until_it_is_taken)
 {
-    (void)state;
     rlf_source *chair = open_scene(RLF_SYNTHETIC_CHAIR, 0.5);
     rlf_vec3 seat = {-1.12, 0.83, 3.42};
     assert_int_equal(nearest(chair, 3.99, seat).label, RLF_SYNTHETIC_LABEL_CHAIR);
     assert_int_not_equal(nearest(chair, 4.01, seat).label, RLF_SYNTHETIC_LABEL_CHAIR);
     rlf_source_destroy(&chair);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(distance_changes_with_the_velocity),
-        cmocka_unit_test(trays_move_at_the_given_speed),
-        cmocka_unit_test(furniture_is_there_until_it_is_taken),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

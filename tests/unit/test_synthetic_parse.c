@@ -5,9 +5,8 @@
 
 #include <string.h>
 
-static void every_key_is_read(void **state)
+TEST_CASE(every_key_is_read)
 {
-    (void)state;
     rlf_synthetic_def def = rlf_synthetic_def_default();
     assert_int_equal(rlf_synthetic_parse("synthetic:thesis?seed=18446744073709551615&frames=-1&"
                                          "fps=29.97&noise=0&edge_filter=0&color=640x360",
@@ -39,9 +38,8 @@ static void every_key_is_read(void **state)
     assert_int_equal(def.person, 3);
 }
 
-static void every_scene_has_its_name(void **state)
+TEST_CASE(every_scene_has_its_name)
 {
-    (void)state;
     static const char *const names[] = {"room", "empty", "thesis", "chair",    "book",  "hand",
                                         "lift", "swipe", "carry",  "crossing", "random"};
     for (int i = 0; i < 11; i++) {
@@ -53,9 +51,8 @@ static void every_scene_has_its_name(void **state)
     }
 }
 
-static void an_error_names_the_part_and_the_cure(void **state)
+TEST_CASE(an_error_names_the_part_and_the_cure)
 {
-    (void)state;
     static const struct {
         const char *source, *part, *cure;
     } cases[] = {
@@ -92,9 +89,8 @@ static void an_error_names_the_part_and_the_cure(void **state)
     }
 }
 
-static void a_bad_def_is_refused_with_its_field(void **state)
+TEST_CASE(a_bad_def_is_refused_with_its_field)
 {
-    (void)state;
     rlf_source *source = NULL;
     rlf_synthetic_def def = rlf_synthetic_def_default();
     def.frames_per_second = -1.0;
@@ -109,15 +105,4 @@ static void a_bad_def_is_refused_with_its_field(void **state)
     assert_int_equal(rlf_synthetic_create(&def, &source), RLF_ERROR_INVALID);
     assert_non_null(strstr(rlf_error_text(), "frame_count"));
     assert_null(source);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_key_is_read),
-        cmocka_unit_test(every_scene_has_its_name),
-        cmocka_unit_test(an_error_names_the_part_and_the_cure),
-        cmocka_unit_test(a_bad_def_is_refused_with_its_field),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* A synthetic camera that moves: its poses and its pictures tell the same story. */
 
-#include "relief/synthetic.h"
+#include "created.h"
 #include "test.h"
 
 #include <string.h>
@@ -8,19 +8,9 @@
 #define WIDTH 512
 #define HEIGHT 424
 
-static rlf_source *open_source(const char *text)
-{
-    rlf_synthetic_def def = rlf_synthetic_def_default();
-    rlf_source *source = NULL;
-    assert_int_equal(rlf_synthetic_parse(text, &def), RLF_OK);
-    assert_int_equal(rlf_synthetic_create(&def, &source), RLF_OK);
-    return source;
-}
-
 static rlf_frame next_of(rlf_source *source)
 {
-    rlf_frame frame;
-    assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+    rlf_frame frame = frame_of(source);
     assert_true(frame.has_pose);
     return frame;
 }
@@ -53,14 +43,13 @@ static void check_pair(rlf_source *source)
     }
 }
 
-static void test_pictures_agree_with_poses(void **state)
+TEST_CASE(test_pictures_agree_with_poses)
 {
     static const char *const sources[] = {"synthetic:empty?path=handheld&color=0&noise=0&fps=2",
                                           "synthetic:room?path=look_away&color=0&noise=0&fps=0.5",
                                           "synthetic:random?path=walk&color=0&seed=3&fps=1"};
-    (void)state;
     for (size_t i = 0; i < sizeof(sources) / sizeof(sources[0]); i++) {
-        rlf_source *source = open_source(sources[i]);
+        rlf_source *source = synthetic_named(sources[i], NULL);
         check_pair(source);
         check_pair(source);
         rlf_source_destroy(&source);
@@ -68,15 +57,14 @@ static void test_pictures_agree_with_poses(void **state)
 }
 
 /* Every path begins where a camera at rest is, and is smooth: no more than the paths promise. */
-static void test_paths_begin_at_rest(void **state)
+TEST_CASE(test_paths_begin_at_rest)
 {
     static const char *const names[] = {"orbit", "walk",    "handheld", "look_away",
                                         "fast",  "carried", "bump"};
-    (void)state;
     for (size_t i = 0; i < sizeof(names) / sizeof(names[0]); i++) {
         char text[80] = "synthetic:empty?color=0&fps=30&frames=6&path=";
         strncat(text, names[i], sizeof(text) - strlen(text) - 1);
-        rlf_source *source = open_source(text);
+        rlf_source *source = synthetic_named(text, NULL);
         rlf_pose last = next_of(source).T_world_camera;
         assert_true(rlf_length(last.p) == 0.0 && last.q.w == 1.0);
         for (int k = 1; k < 6; k++) {
@@ -90,11 +78,10 @@ static void test_paths_begin_at_rest(void **state)
 }
 
 /* What the second camera sees of the person is where the first camera's truth has the person. */
-static void test_the_opposite_camera_sees_the_same_person(void **state)
+TEST_CASE(test_the_opposite_camera_sees_the_same_person)
 {
-    (void)state;
-    rlf_source *front = open_source("synthetic:room?color=0&noise=0&fps=1");
-    rlf_source *back = open_source("synthetic:room?path=opposite&color=0&noise=0&fps=1");
+    rlf_source *front = synthetic_named("synthetic:room?color=0&noise=0&fps=1", NULL);
+    rlf_source *back = synthetic_named("synthetic:room?path=opposite&color=0&noise=0&fps=1", NULL);
     rlf_frame unused, frame;
     int32_t count = 0;
     for (int k = 0; k < 6; k++) {
@@ -124,11 +111,10 @@ static void test_the_opposite_camera_sees_the_same_person(void **state)
     rlf_source_destroy(&back);
 }
 
-static void test_a_restart_gives_the_same_bits(void **state)
+TEST_CASE(test_a_restart_gives_the_same_bits)
 {
     static uint16_t first[WIDTH * HEIGHT];
-    (void)state;
-    rlf_source *source = open_source("synthetic:room?path=fast&color=64x36&fps=2");
+    rlf_source *source = synthetic_named("synthetic:room?path=fast&color=64x36&fps=2", NULL);
     (void)next_of(source);
     memcpy(first, next_of(source).depth_u16, sizeof(first));
     assert_int_equal(rlf_source_restart(source), RLF_OK);
@@ -137,24 +123,11 @@ static void test_a_restart_gives_the_same_bits(void **state)
     rlf_source_destroy(&source);
 }
 
-static void test_hostile_settings(void **state)
+TEST_CASE(test_hostile_settings)
 {
     rlf_synthetic_def def = rlf_synthetic_def_default();
-    (void)state;
     assert_int_equal(rlf_synthetic_parse("synthetic:room?path=sideways", &def), RLF_ERROR_INVALID);
     assert_int_equal(rlf_synthetic_parse("synthetic:random?path=walk&push=lift", &def), RLF_OK);
     rlf_source *source = NULL;
     assert_int_equal(rlf_synthetic_create(&def, &source), RLF_ERROR_INVALID);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_pictures_agree_with_poses),
-        cmocka_unit_test(test_paths_begin_at_rest),
-        cmocka_unit_test(test_the_opposite_camera_sees_the_same_person),
-        cmocka_unit_test(test_a_restart_gives_the_same_bits),
-        cmocka_unit_test(test_hostile_settings),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

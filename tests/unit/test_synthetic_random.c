@@ -3,8 +3,8 @@
 
 #include "heavy.h"
 #include "relief/base.h"
-#include "relief/synthetic.h"
 #include "sim/shape.h"
+#include "created.h"
 #include "test.h"
 
 #include <math.h>
@@ -15,29 +15,10 @@
 #define HEIGHT 424
 #define PIXELS (WIDTH * HEIGHT)
 
-static rlf_source *open_source(const char *text, rlf_pool *pool)
-{
-    rlf_synthetic_def def = rlf_synthetic_def_default();
-    rlf_source *source = NULL;
-    assert_int_equal(rlf_synthetic_parse(text, &def), RLF_OK);
-    def.pool = pool;
-    assert_int_equal(rlf_synthetic_create(&def, &source), RLF_OK);
-    return source;
-}
-
-static rlf_frame frame_at(rlf_source *source, uint64_t sequence)
-{
-    rlf_frame frame;
-    do {
-        assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
-    } while (frame.sequence < sequence);
-    return frame;
-}
-
 /* FNV-1a over the depth, the colour and the truth of a few frames. */
 static uint64_t hash_of(const char *text, rlf_pool *pool)
 {
-    rlf_source *source = open_source(text, pool);
+    rlf_source *source = synthetic_named(text, pool);
     uint64_t hash = 14695981039346656037u;
     for (uint64_t at = 0; at <= 100; at += 50) {
         const rlf_frame frame = frame_at(source, at);
@@ -54,11 +35,9 @@ static uint64_t hash_of(const char *text, rlf_pool *pool)
     return hash;
 }
 
-static void a_seed_gives_the_same_bits_with_any_number_of_threads(void **state)
+TEST_CASE(a_seed_gives_the_same_bits_with_any_number_of_threads)
 {
-    (void)state;
-    rlf_pool *pool = NULL;
-    assert_int_equal(rlf_pool_create(2, &pool), RLF_OK);
+    rlf_pool *pool = pool_of(2);
     const char *const text = "synthetic:random?seed=4&color=96x54";
     const uint64_t once = hash_of(text, NULL);
     assert_true(once == hash_of(text, NULL));
@@ -98,13 +77,12 @@ static void check_rays(rlf_source *source, const rlf_frame *frame)
     assert_true(agree > 0.995 * count); /* single precision at silhouettes */
 }
 
-static void truth_agrees_with_rays_of_its_own(void **state)
+TEST_CASE(truth_agrees_with_rays_of_its_own)
 {
-    (void)state;
     for (int seed = 0; seed < heavy(12, 1); seed += 3) {
         char text[64];
         snprintf(text, sizeof(text), "synthetic:random?color=0&seed=%d", seed);
-        rlf_source *source = open_source(text, NULL);
+        rlf_source *source = synthetic_named(text, NULL);
         for (uint64_t at = 0; at <= (uint64_t)heavy(120, 60); at += 60) {
             const rlf_frame frame = frame_at(source, at);
             check_rays(source, &frame);
@@ -113,15 +91,14 @@ static void truth_agrees_with_rays_of_its_own(void **state)
     }
 }
 
-static void every_seed_gives_a_room_that_is_seen(void **state)
+TEST_CASE(every_seed_gives_a_room_that_is_seen)
 {
-    (void)state;
     const int seeds = heavy(41, 1);
     int with_people = 0;
     for (int seed = 0; seed < seeds; seed++) {
         char text[64];
         snprintf(text, sizeof(text), "synthetic:random?color=0&seed=%d", seed);
-        rlf_source *source = open_source(text, NULL);
+        rlf_source *source = synthetic_named(text, NULL);
         int valid = 0, foreground = 0;
         rlf_frame frame = frame_at(source, 0);
         const rlf_truth *truth = rlf_source_get_truth(source);
@@ -146,10 +123,10 @@ static void every_seed_gives_a_room_that_is_seen(void **state)
 }
 
 /* Until it starts it is a part of the room, then it moves at its speed against gravity. */
-static void a_plate_stands_and_rises(void **state)
+TEST_CASE(a_plate_stands_and_rises)
 {
-    (void)state;
-    rlf_source *source = open_source("synthetic:random?color=0&seed=3&push=lift&speed=0.25", NULL);
+    rlf_source *source =
+        synthetic_named("synthetic:random?color=0&seed=3&push=lift&speed=0.25", NULL);
     rlf_vec3 down;
     assert_int_equal(rlf_synthetic_get_down(source, &down), RLF_OK);
     (void)frame_at(source, 89);
@@ -175,9 +152,8 @@ static void a_plate_stands_and_rises(void **state)
 }
 
 /* The solid with flat ends: known crossings, and rays against distances. */
-static void rays_and_distances_of_a_frustum_agree(void **state)
+TEST_CASE(rays_and_distances_of_a_frustum_agree)
 {
-    (void)state;
     const synth_shape shape = {.type = SYNTH_FRUSTUM,
                                .T_camera_shape = {{0, -0.5, 3}, {0, 0, 0, 1}},
                                .length = 1.0,
@@ -206,16 +182,4 @@ static void rays_and_distances_of_a_frustum_agree(void **state)
         assert_float_equal(synth_shape_distance(&shape, out, &normal), 0.01, 1e-9);
         assert_true(synth_shape_distance(&shape, rlf_mad(p, n, -0.001), &normal) < 0.0);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_seed_gives_the_same_bits_with_any_number_of_threads),
-        cmocka_unit_test(truth_agrees_with_rays_of_its_own),
-        cmocka_unit_test(every_seed_gives_a_room_that_is_seen),
-        cmocka_unit_test(a_plate_stands_and_rises),
-        cmocka_unit_test(rays_and_distances_of_a_frustum_agree),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,9 +31,8 @@ static void assert_miss(const synth_shape *shape, synth_ray ray)
     assert_false(synth_shape_intersect(shape, &ray, &hit));
 }
 
-static void rays_meet_a_plane_at_the_known_depth(void **state)
+TEST_CASE(rays_meet_a_plane_at_the_known_depth)
 {
-    (void)state;
     synth_shape floor = at(SYNTH_HALF_SPACE, rlf_vec3_make(0, 1.2, 0));
     synth_ray ray = {{0, 0, 0}, {0.1, 0.5, 1}};
     synth_interval hit;
@@ -46,9 +45,8 @@ static void rays_meet_a_plane_at_the_known_depth(void **state)
     assert_true(hit.near < -1e6 && hit.far < 0.0);
 }
 
-static void rays_meet_a_sphere_and_an_ellipsoid(void **state)
+TEST_CASE(rays_meet_a_sphere_and_an_ellipsoid)
 {
-    (void)state;
     synth_shape ball = at(SYNTH_ELLIPSOID, rlf_vec3_make(0, 0, 3));
     ball.size = rlf_vec3_make(0.5, 0.5, 0.5);
     assert_interval(&ball, along_z(0, 0), 2.5, 3.5);
@@ -60,9 +58,8 @@ static void rays_meet_a_sphere_and_an_ellipsoid(void **state)
     assert_miss(&ball, along_z(0, 0.21));
 }
 
-static void rays_meet_a_box_also_when_parallel(void **state)
+TEST_CASE(rays_meet_a_box_also_when_parallel)
 {
-    (void)state;
     synth_shape box = at(SYNTH_BOX, rlf_vec3_make(0, 0, 3));
     box.size = rlf_vec3_make(0.3, 0.2, 0.1);
     assert_interval(&box, along_z(0.29, 0.19), 2.9, 3.1);
@@ -72,9 +69,8 @@ static void rays_meet_a_box_also_when_parallel(void **state)
     assert_interval(&box, along_z(0, 0), 3.0 - reach, 3.0 + reach);
 }
 
-static void rays_meet_a_capsule_and_a_round_cone(void **state)
+TEST_CASE(rays_meet_a_capsule_and_a_round_cone)
 {
-    (void)state;
     synth_shape capsule = at(SYNTH_CONE, rlf_vec3_make(0, 0, 3));
     capsule.length = 1.0;
     capsule.radius_a = 0.2;
@@ -118,9 +114,8 @@ static synth_shape random_shape(uint32_t *seed, int type)
 
 /* Entry and exit of any ray are at distance 0, the normal of the distance is that of the surface,
  * and between them the distance is negative. */
-static void ray_and_distance_agree(void **state)
+TEST_CASE(ray_and_distance_agree)
 {
-    (void)state;
     uint32_t seed = 1;
     int hits = 0;
     for (int i = 0; i < 20000; i++) {
@@ -150,9 +145,8 @@ static void ray_and_distance_agree(void **state)
 }
 
 /* The distance is 1-Lipschitz, and going back along the normal by it ends on the surface. */
-static void distance_leads_to_the_surface(void **state)
+TEST_CASE(distance_leads_to_the_surface)
 {
-    (void)state;
     uint32_t seed = 2;
     for (int i = 0; i < 20000; i++) {
         synth_shape shape = random_shape(&seed, i % 4);
@@ -168,9 +162,8 @@ static void distance_leads_to_the_surface(void **state)
     }
 }
 
-static void distance_has_known_values(void **state)
+TEST_CASE(distance_has_known_values)
 {
-    (void)state;
     rlf_vec3 n;
     synth_shape box = at(SYNTH_BOX, rlf_vec3_make(0, 0, 0));
     box.size = rlf_vec3_make(1, 2, 3);
@@ -183,18 +176,4 @@ static void distance_has_known_values(void **state)
     assert_float_equal(synth_shape_distance(&egg, rlf_vec3_make(0, 0, 5), &n), 2.0, 1e-7);
     assert_float_equal(n.z, 1.0, 1e-7);
     assert_float_equal(synth_shape_distance(&egg, rlf_vec3_make(0, 0, 0), &n), -1.0, 1e-7);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rays_meet_a_plane_at_the_known_depth),
-        cmocka_unit_test(rays_meet_a_sphere_and_an_ellipsoid),
-        cmocka_unit_test(rays_meet_a_box_also_when_parallel),
-        cmocka_unit_test(rays_meet_a_capsule_and_a_round_cone),
-        cmocka_unit_test(ray_and_distance_agree),
-        cmocka_unit_test(distance_leads_to_the_surface),
-        cmocka_unit_test(distance_has_known_values),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

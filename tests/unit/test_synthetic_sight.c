@@ -1,6 +1,6 @@
 /* rlf_synthetic_cast against the truth planes, and its independence of how rays are grouped. */
 
-#include "relief/synthetic.h"
+#include "created.h"
 #include "test.h"
 
 #include <math.h>
@@ -10,11 +10,9 @@ static rlf_source *open_room(int32_t frames)
 {
     rlf_synthetic_def def = rlf_synthetic_def_default();
     def.enable_color = false;
-    rlf_source *source = NULL;
-    assert_int_equal(rlf_synthetic_create(&def, &source), RLF_OK);
-    rlf_frame frame;
+    rlf_source *source = synthetic_of(&def);
     for (int32_t i = 0; i < frames; i++) {
-        assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+        frame_of(source);
     }
     return source;
 }
@@ -25,9 +23,8 @@ static rlf_vec3 ray_of(const rlf_camera *k, int32_t i)
 }
 
 /* Along the depth camera's own rays it must see what the truth planes hold, person included. */
-static void own_rays_see_the_truth(void **state)
+TEST_CASE(own_rays_see_the_truth)
 {
-    (void)state;
     rlf_source *source = open_room(90);
     const rlf_truth *truth = rlf_source_get_truth(source);
     const rlf_camera *k = &rlf_source_get_info(source)->rig.depth;
@@ -54,9 +51,8 @@ static void own_rays_see_the_truth(void **state)
 
 /* A bundle's cone only leaves out what none of its rays can hit: one ray at a time is the same,
  * from any origin and in any direction, backwards included. */
-static void grouping_changes_nothing(void **state)
+TEST_CASE(grouping_changes_nothing)
 {
-    (void)state;
     rlf_source *source = open_room(60);
     rlf_vec3 origin = {0.3, -0.2, 0.9};
     rlf_vec3 rays[200];
@@ -94,9 +90,8 @@ static rlf_result no_frame(void *self, rlf_frame *out)
     return RLF_END;
 }
 
-static void other_sources_know_no_truth(void **state)
+TEST_CASE(other_sources_know_no_truth)
 {
-    (void)state;
     rlf_source_methods methods = {.next = no_frame};
     rlf_source_info info = {.name = "mine"};
     info.rig.depth = (rlf_camera){.width = 1, .height = 1, .fx = 1, .fy = 1};
@@ -106,14 +101,4 @@ static void other_sources_know_no_truth(void **state)
     float z;
     assert_int_equal(rlf_synthetic_cast(source, ray, &ray, 1, &z, NULL), RLF_ERROR_INVALID);
     rlf_source_destroy(&source);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(own_rays_see_the_truth),
-        cmocka_unit_test(grouping_changes_nothing),
-        cmocka_unit_test(other_sources_know_no_truth),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

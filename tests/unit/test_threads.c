@@ -34,9 +34,8 @@ static bool is_same(const golden *a, const golden *b)
     return a->surface == b->surface && a->world == b->world && a->picture == b->picture;
 }
 
-static void pipelines_do_not_disturb_each_other(void **state)
+TEST_CASE(pipelines_do_not_disturb_each_other)
 {
-    (void)state;
     replay replays[THREADS] = {{.profile = RLF_PROFILE_LIVE},
                                {.profile = RLF_PROFILE_THESIS},
                                {.profile = RLF_PROFILE_LIVE}};
@@ -53,10 +52,4 @@ static void pipelines_do_not_disturb_each_other(void **state)
     assert_true(is_same(&replays[1].result, &thesis));
     assert_true(is_same(&replays[2].result, &live));
     assert_false(is_same(&live, &thesis));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(pipelines_do_not_disturb_each_other)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* The tracker against rooms of planes, of which everything is known. */
 
 #include "relief/track.h"
+#include "pinhole.h"
 #include "test.h"
 
 #include <math.h>
@@ -58,13 +59,20 @@ static void render(const plane *planes, int count, const rlf_pose *T, float *dep
     }
 }
 
-/* The room is predicted from the identity, and seen from `T`. */
+static int end(void **state)
+{
+    (void)state;
+    rlf_tracker_destroy(&f.tracker);
+    return 0;
+}
+
+/* The room is predicted from the identity, and seen from `T`; instead of what was there. */
 static void begin(const plane *planes, int count, const rlf_pose *T)
 {
     const rlf_pose identity = rlf_pose_identity();
+    end(NULL);
     memset(&f, 0, sizeof(f));
-    f.rig.depth = (rlf_camera){
-        .width = WIDTH, .height = HEIGHT, .fx = 183.0, .fy = 183.0, .cx = 127.5, .cy = 105.5};
+    f.rig.depth = pinhole(WIDTH, HEIGHT, 183.0);
     f.rig.depth_min_m = 0.3;
     f.rig.depth_max_m = 8.0;
     f.rig.noise = (rlf_depth_noise){0.0015, -0.0005, 0.0003};
@@ -117,10 +125,9 @@ static double turn_between(rlf_quat a, rlf_quat b)
     return 2.0 * rlf_length(rlf_vec3_make(q.x, q.y, q.z)) * 180.0 / RLF_PI;
 }
 
-static void test_a_corner_gives_the_pose(void **state)
+TEST_CASE(test_a_corner_gives_the_pose)
 {
     const rlf_pose T = moved();
-    (void)state;
     begin(corner, 3, &T);
     const rlf_track_result found = align();
     assert_int_equal(found.health, RLF_TRACK_GOOD);
@@ -129,29 +136,25 @@ static void test_a_corner_gives_the_pose(void **state)
     assert_true(found.overlap > 0.9);
     const rlf_track_result again = align();
     assert_memory_equal(&again.T_world_camera, &found.T_world_camera, sizeof(rlf_pose));
-    rlf_tracker_destroy(&f.tracker);
 }
 
 /* A blank wall says nothing of the ways along it, and the pose stays where it was in them. */
-static void test_a_plane_alone_is_weak(void **state)
+TEST_CASE(test_a_plane_alone_is_weak)
 {
     const rlf_pose T = {{0.03, 0.0, 0.02}, rlf_quat_identity()};
-    (void)state;
     begin(corner, 1, &T);
     const rlf_track_result found = align();
     assert_int_equal(found.health, RLF_TRACK_WEAK);
     assert_true(fabs(found.weak_way.z) < 0.05);
     assert_float_equal(found.T_world_camera.p.z, 0.02, 2e-4);
     assert_true(fabs(found.T_world_camera.p.x) < 1e-3);
-    rlf_tracker_destroy(&f.tracker);
 }
 
 /* A seventh of the view goes to the side and nearer, as a person does. With the mask it does not
  * pull at all; without, what is far in front of the room is left out. */
-static void test_a_mover_does_not_pull(void **state)
+TEST_CASE(test_a_mover_does_not_pull)
 {
     const rlf_pose T = moved();
-    (void)state;
     for (int is_masked = 0; is_masked < 2; is_masked++) {
         begin(corner, 3, &T);
         for (int32_t i = 0; i < PIXELS; i++) {
@@ -163,38 +166,33 @@ static void test_a_mover_does_not_pull(void **state)
         const rlf_track_result found = align();
         assert_int_equal(found.health, RLF_TRACK_GOOD);
         assert_true(rlf_length(rlf_sub(found.T_world_camera.p, T.p)) < 1e-3);
-        rlf_tracker_destroy(&f.tracker);
     }
 }
 
 /* Where depth settles the pose brightness that says otherwise changes nothing; along a wall it is
  * all that there is. */
-static void test_brightness_tells_what_depth_does_not(void **state)
+TEST_CASE(test_brightness_tells_what_depth_does_not)
 {
     const rlf_pose T = moved(), here = rlf_pose_identity();
-    (void)state;
     begin(corner, 3, &T);
     const rlf_track_result alone = align();
     paint(6.0);
     const rlf_track_result found = align();
     assert_true(rlf_length(rlf_sub(found.T_world_camera.p, alone.T_world_camera.p)) < 1e-4);
     assert_true(turn_between(found.T_world_camera.q, alone.T_world_camera.q) < 0.01);
-    rlf_tracker_destroy(&f.tracker);
     begin(corner, 1, &here);
     paint(2.0);
     const rlf_track_result slid = align();
     assert_int_equal(slid.health, RLF_TRACK_GOOD);
     assert_float_equal(slid.T_world_camera.p.x, -2.0 / 183.0 * 3.0, 2e-3);
     assert_float_equal(slid.T_world_camera.p.z, 0.0, 1e-4);
-    rlf_tracker_destroy(&f.tracker);
 }
 
 /* Noise moves nothing: the pose is the prediction's, bit for bit. */
-static void test_a_camera_at_rest_stays(void **state)
+TEST_CASE(test_a_camera_at_rest_stays)
 {
     const rlf_pose here = rlf_pose_identity();
     uint32_t hash = 1;
-    (void)state;
     begin(corner, 3, &here);
     for (int32_t i = 0; i < PIXELS; i++) {
         hash = hash * 1664525u + 1013904223u;
@@ -202,25 +200,21 @@ static void test_a_camera_at_rest_stays(void **state)
     }
     const rlf_track_result found = align();
     assert_memory_equal(&found.T_world_camera, &here, sizeof(here));
-    rlf_tracker_destroy(&f.tracker);
 }
 
 /* A guess that nothing confirms is not believed: along a wall the camera stays where it was. */
-static void test_a_guess_along_a_wall_is_not_kept(void **state)
+TEST_CASE(test_a_guess_along_a_wall_is_not_kept)
 {
     const rlf_pose here = rlf_pose_identity(), guess = {{0.03, 0.0, 0.0}, rlf_quat_identity()};
-    (void)state;
     begin(corner, 1, &here);
     const rlf_track_result found = align_from(guess);
     assert_int_equal(found.health, RLF_TRACK_WEAK);
     assert_true(rlf_length(found.T_world_camera.p) < 1e-3);
-    rlf_tracker_destroy(&f.tracker);
 }
 
-static void test_nothing_seen_is_lost(void **state)
+TEST_CASE(test_nothing_seen_is_lost)
 {
     const rlf_pose T = moved();
-    (void)state;
     begin(corner, 3, &T);
     memset(f.seen, 0, sizeof(f.seen));
     assert_int_equal(align().health, RLF_TRACK_LOST);
@@ -228,13 +222,11 @@ static void test_nothing_seen_is_lost(void **state)
         f.seen[i] = i % 2 != 0 ? NAN : INFINITY;
     }
     assert_int_equal(align().health, RLF_TRACK_LOST);
-    rlf_tracker_destroy(&f.tracker);
 }
 
-static void test_no_pose_is_refused(void **state)
+TEST_CASE(test_no_pose_is_refused)
 {
     const rlf_pose T = moved();
-    (void)state;
     begin(corner, 3, &T);
     const rlf_track_view view = {f.seen, NULL, NULL};
     const rlf_pose bad[] = {{{NAN, 0, 0}, rlf_quat_identity()}, {{0, 0, 0}, {0, 0, 0, 0}}};
@@ -243,14 +235,12 @@ static void test_no_pose_is_refused(void **state)
         assert_int_equal(rlf_tracker_align(f.tracker, &view, &f.prediction, &bad[i], &result),
                          RLF_ERROR_INVALID);
     }
-    rlf_tracker_destroy(&f.tracker);
 }
 
 /* Two views that do not look alike: each is recalled by itself. */
-static void test_a_view_is_recalled(void **state)
+TEST_CASE(test_a_view_is_recalled)
 {
     const rlf_pose T = moved();
-    (void)state;
     begin(corner, 3, &T);
     rlf_track_result at = {.T_world_camera = rlf_pose_identity(), .health = RLF_TRACK_GOOD};
     rlf_track_view view = {f.depth, NULL, NULL};
@@ -267,14 +257,12 @@ static void test_a_view_is_recalled(void **state)
     view.depth = f.depth;
     assert_int_equal(rlf_tracker_recall(f.tracker, &view, poses, 4), 2);
     assert_true(poses[0].p.x == 0.0);
-    rlf_tracker_destroy(&f.tracker);
 }
 
 /* Constant velocity, but not over a jump in time. */
-static void test_the_camera_goes_on_as_it_did(void **state)
+TEST_CASE(test_the_camera_goes_on_as_it_did)
 {
     const rlf_pose T = moved();
-    (void)state;
     begin(corner, 3, &T);
     rlf_track_result at = {.T_world_camera = rlf_pose_identity(), .health = RLF_TRACK_WEAK};
     rlf_tracker_accept(f.tracker, NULL, 0, &at);
@@ -285,22 +273,6 @@ static void test_the_camera_goes_on_as_it_did(void **state)
     assert_float_equal(rlf_tracker_guess(f.tracker, 0).p.x, 0.01, 1e-9);
     assert_float_equal(rlf_tracker_guess(f.tracker, INT64_MAX).p.x, 0.01, 1e-9);
     assert_float_equal(rlf_tracker_guess(f.tracker, INT64_MIN).p.x, 0.01, 1e-9);
-    rlf_tracker_destroy(&f.tracker);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_corner_gives_the_pose),
-        cmocka_unit_test(test_a_plane_alone_is_weak),
-        cmocka_unit_test(test_a_mover_does_not_pull),
-        cmocka_unit_test(test_brightness_tells_what_depth_does_not),
-        cmocka_unit_test(test_a_camera_at_rest_stays),
-        cmocka_unit_test(test_a_guess_along_a_wall_is_not_kept),
-        cmocka_unit_test(test_nothing_seen_is_lost),
-        cmocka_unit_test(test_no_pose_is_refused),
-        cmocka_unit_test(test_a_view_is_recalled),
-        cmocka_unit_test(test_the_camera_goes_on_as_it_did),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_EACH(NULL, end)
