@@ -6,7 +6,8 @@
 #include <memory>
 #include <vector>
 
-namespace {
+namespace
+{
 
 struct layer {
     std::vector<float> vertices;
@@ -137,5 +138,5 @@ peer_state state(const void *context, int32_t index)
 
 } // namespace
 
-extern "C" const peer peer_bullet = {"Bullet", true,     open_engine, close_engine, add,
-                                     set_mesh, step, state};
+extern "C" const peer peer_bullet = {"Bullet", true,     open_engine, close_engine,
+                                     add,      set_mesh, step,        state};
