@@ -6,8 +6,7 @@
 #include <memory>
 #include <vector>
 
-namespace
-{
+namespace {
 
 struct layer {
     std::vector<float> vertices;
@@ -138,5 +137,5 @@ peer_state state(const void *context, int32_t index)
 
 } // namespace
 
-extern "C" const peer peer_bullet = {"Bullet", true,     open_engine, close_engine,
-                                     add,      set_mesh, step,        state};
+extern "C" const peer peer_bullet = {"Bullet", true,     open_engine, close_engine, add,
+                                     set_mesh, step, state};

@@ -69,12 +69,11 @@ class Source
         rlf_source_destroy(&owner->source);
     }
 
-    // The scene's nearest surface to each of (N, 3) points: arrays of distances, normals,
-    // velocities and labels.
+    // The scene's nearest surface to each of (N, 3) points: arrays of distances, normals, velocities
+    // and labels.
     py::tuple nearest(const py::object &points, const py::object &time) const
     {
-        const auto p =
-            py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(points);
+        const auto p = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(points);
         if (!p || p.ndim() != 2 || p.shape(1) != 3) {
             throw py::value_error("points: use an array (N, 3) of metres");
         }
@@ -89,8 +88,7 @@ class Source
         for (py::ssize_t i = 0; i < count; i++) {
             const rlf_vec3 place = {p.at(i, 0), p.at(i, 1), p.at(i, 2)};
             rlf_synthetic_hit hit = {};
-            check(is_now ? rlf_synthetic_distance(source, place, &hit.distance, &hit.normal,
-                                                  &hit.label)
+            check(is_now ? rlf_synthetic_distance(source, place, &hit.distance, &hit.normal, &hit.label)
                          : rlf_synthetic_nearest(source, at, place, &hit));
             distance.mutable_at(i) = hit.distance;
             label.mutable_at(i) = hit.label;
@@ -154,8 +152,7 @@ class Source
                                       const rlf_camera &c)
     {
         py::array_t<float> out({py::ssize_t(3), py::ssize_t(c.height), py::ssize_t(c.width)});
-        const size_t bytes =
-            sizeof(float) * static_cast<size_t>(c.width) * static_cast<size_t>(c.height);
+        const size_t bytes = sizeof(float) * static_cast<size_t>(c.width) * static_cast<size_t>(c.height);
         const float *const planes[3] = {x, y, z};
         for (py::ssize_t k = 0; k < 3; k++) {
             std::memcpy(out.mutable_data(k), planes[k], bytes);
@@ -203,9 +200,8 @@ py::object read_picture(const py::object &path)
     const std::string text = path_from(path, "path", "the path of a picture");
     rlf_image_rgba8 image = {};
     check(rlf_picture_read(text.c_str(), &image));
-    const py::array_t<uint8_t> out(
-        {py::ssize_t(image.height), py::ssize_t(image.width), py::ssize_t(4)},
-        {py::ssize_t(image.stride), py::ssize_t(4), py::ssize_t(1)}, image.data);
+    const py::array_t<uint8_t> out({py::ssize_t(image.height), py::ssize_t(image.width), py::ssize_t(4)},
+                                   {py::ssize_t(image.stride), py::ssize_t(4), py::ssize_t(1)}, image.data);
     rlf_free(image.data);
     return out;
 }
@@ -257,18 +253,16 @@ void bind_source(py::module_ &m)
             "Driver, model and serial number, or the format; \"\" = unknown.")
         .def("restart", &Source::restart, "The first frame is the next one again.")
         .def("seek", &Source::seek, py::arg("index"), "Makes frame `index`, from 0, the next one.")
-        .def_property_readonly("truth", &Source::truth,
-                               "What a synthetic room knows of its last frame, copied: depth, "
-                               "normals, label, foreground, "
-                               "thickness, velocity, background_depth as arrays, and poses, a list "
-                               "of (name, label, pose) "
-                               "of what moves; None of any other source.")
+        .def_property_readonly(
+            "truth", &Source::truth,
+            "What a synthetic room knows of its last frame, copied: depth, normals, label, foreground, "
+            "thickness, velocity, background_depth as arrays, and poses, a list of (name, label, pose) "
+            "of what moves; None of any other source.")
         .def_property_readonly("down", &Source::down,
                                "Unit vector towards a synthetic room's floor, camera frame.")
         .def("nearest", &Source::nearest, py::arg("points"), py::arg("time") = py::none(),
              "(distance, normal, velocity, label) of a synthetic room's surface nearest to each of "
-             "points (N, 3), camera frame: as at its last frame, without velocity, or at `time`, "
-             "seconds. "
+             "points (N, 3), camera frame: as at its last frame, without velocity, or at `time`, seconds. "
              "Negative inside a solid.")
         .def("close", &Source::close, "Gives the camera or the file back; again it does nothing.")
         .def("__iter__", [](py::object self) { return self; })
@@ -277,8 +271,7 @@ void bind_source(py::module_ &m)
         .def("__exit__", [](Source &s, const py::args &) { s.close(); });
     m.def("read_png", &read_png, py::arg("path"),
           "A PNG of 16 bits a channel as uint16: (H, W) of grey, (H, W, 3) of colour.");
-    m.def("read_picture", &read_picture, py::arg("path"),
-          "A PNG or JPEG as (H, W, 4) uint8, RGBA.");
+    m.def("read_picture", &read_picture, py::arg("path"), "A PNG or JPEG as (H, W, 4) uint8, RGBA.");
     m.def(
         "open",
         [](const py::object &name, int threads) { return std::make_unique<Source>(name, threads); },

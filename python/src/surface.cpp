@@ -123,12 +123,11 @@ py::object compute_normals(const Plane &depth, const Plane &ray_x, const Plane &
     if (!fits) {
         throw py::value_error("depth, ray_x, ray_y: use three planes (H, W) of one size");
     }
-    const auto height = static_cast<int32_t>(depth.shape(0)),
-               width = static_cast<int32_t>(depth.shape(1));
+    const auto height = static_cast<int32_t>(depth.shape(0)), width = static_cast<int32_t>(depth.shape(1));
     py::array_t<float> out({py::ssize_t(3), depth.shape(0), depth.shape(1)});
     rlf_compute_normals(static_cast<rlf_normal_method>(chosen), true, width, height, ray_x.data(),
-                        ray_y.data(), depth.data(), nullptr, out.mutable_data(0),
-                        out.mutable_data(1), out.mutable_data(2));
+                        ray_y.data(), depth.data(), nullptr, out.mutable_data(0), out.mutable_data(1),
+                        out.mutable_data(2));
     return out.attr("transpose")(1, 2, 0);
 }
 
@@ -168,10 +167,11 @@ void bind_surface(py::module_ &m)
                                "(H, W) float32, z; 0 = missing.")
         .def_property_readonly("points", of([](P p) { return p.points(p.s->depth); }),
                                "(H, W, 3) float32, made by this call; 0 where missing.")
-        .def_property_readonly("rays", of([](P p) {
-                                   return py::make_tuple(p.plane(p.s->ray_x), p.plane(p.s->ray_y));
-                               }),
-                               "(x, y) of (H, W) float32: a pixel's point is depth (x, y, 1).")
+        .def_property_readonly(
+            "rays", of([](P p) {
+                return py::make_tuple(p.plane(p.s->ray_x), p.plane(p.s->ray_y));
+            }),
+            "(x, y) of (H, W) float32: a pixel's point is depth (x, y, 1).")
         .def_property_readonly("normals", of([](P p) {
                                    return p.vectors(p.s->normal_x, p.s->normal_y, p.s->normal_z);
                                }),
@@ -200,21 +200,19 @@ void bind_surface(py::module_ &m)
         .def_property_readonly("background_thickness",
                                of([](P p) { return p.plane(p.s->background_thickness); }),
                                "(H, W) float32, solid behind background_depth; 0 = unknown.")
-        .def_property_readonly("background_label",
-                               of([](P p) { return p.plane(p.s->background_label); }),
+        .def_property_readonly("background_label", of([](P p) { return p.plane(p.s->background_label); }),
                                "(H, W) int32, as label, of the room behind what moves.")
-        .def_property_readonly("is_background_known", of([](P p) {
-                                   return p.s->background_state == RLF_BACKGROUND_READY;
-                               }),
-                               "False while it is learned.")
+        .def_property_readonly(
+            "is_background_known",
+            of([](P p) { return p.s->background_state == RLF_BACKGROUND_READY; }),
+            "False while it is learned.")
         .def_property_readonly("scale_factor", of([](P p) { return p.s->scale_factor; }),
                                "Every so many pixels of the depth picture have one here.")
         .def_property_readonly("regions", of(&regions_of), "Pieces of both layers.")
         .def_property_readonly("is_blind", of([](P p) { return p.s->is_blind; }),
                                "No depth, or hardly any.")
         .def("find_up", of(&find_up),
-             "(up, confidence): which way is up, and how sure, 0 to 1. Below UP_SURE it is a "
-             "guess.");
+             "(up, confidence): which way is up, and how sure, 0 to 1. Below UP_SURE it is a guess.");
     m.def("compute_normals", &compute_normals, py::arg("depth"), py::arg("ray_x"), py::arg("ray_y"),
           py::arg("method") = "inverse_depth",
           "(H, W, 3) float32 of a clean depth plane, towards the camera; 0 = none. method: "

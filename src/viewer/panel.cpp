@@ -46,8 +46,7 @@ int32_t viewer_panel_get_width(const viewer_panel *panel)
         return 0;
     }
     viewer_window_get_size(&panel->v->window, &width, &height);
-    const int32_t own =
-        (int32_t)(VIEWER_PANEL_WIDTH * (panel->style.scale > 0.0f ? panel->style.scale : 1.0f));
+    const int32_t own = (int32_t)(VIEWER_PANEL_WIDTH * (panel->style.scale > 0.0f ? panel->style.scale : 1.0f));
     return width >= 2 * own && height >= 100 ? own : 0;
 }
 
@@ -143,13 +142,9 @@ static void fulfil(viewer_panel *p)
     p->request = PANEL_NOTHING;
     switch (request) {
     case PANEL_NOTHING: break;
-    case PANEL_SOURCE:
-        (void)viewer_open_stage(p->v, RLF_WINDOW_OPEN_SOURCE, p->request_text);
-        break;
+    case PANEL_SOURCE: (void)viewer_open_stage(p->v, RLF_WINDOW_OPEN_SOURCE, p->request_text); break;
     case PANEL_SCENE: (void)viewer_open_stage(p->v, RLF_WINDOW_OPEN_SCENE, p->request_text); break;
-    case PANEL_SETTING:
-        (void)viewer_open_stage(p->v, RLF_WINDOW_OPEN_SETTING, p->request_text);
-        break;
+    case PANEL_SETTING: (void)viewer_open_stage(p->v, RLF_WINDOW_OPEN_SETTING, p->request_text); break;
     case PANEL_MODEL: viewer_open_path(p->v, p->request_text); break;
     }
 }

@@ -1,8 +1,8 @@
 /* A small list of files to choose one from. */
 #include "viewer/panel_parts.h"
 
-#define ROWS 16       /* that are shown at a time */
-#define LETTERS 26.0f /* of a row, in heights of a letter */
+#define ROWS 16        /* that are shown at a time */
+#define LETTERS 26.0f  /* of a row, in heights of a letter */
 
 void panel_files_open(panel_files *f, panel_request what, const char *endings)
 {
@@ -19,8 +19,7 @@ static bool draw_rows(panel_files *f)
     if (ImGui::IsWindowAppearing()) {
         ImGui::SetNextWindowFocus(); /* arrows begin in the list */
     }
-    ImGui::BeginChild("rows", ImVec2(LETTERS * ImGui::GetFontSize(),
-                                     ROWS * ImGui::GetTextLineHeightWithSpacing()));
+    ImGui::BeginChild("rows", ImVec2(LETTERS * ImGui::GetFontSize(), ROWS * ImGui::GetTextLineHeightWithSpacing()));
     if (ImGui::Selectable("..", false, ImGuiSelectableFlags_DontClosePopups)) {
         entered = "..";
     }

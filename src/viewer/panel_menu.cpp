@@ -7,10 +7,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#define NAME_SHARE 0.24f  /* of the list's width */
+#define NAME_SHARE 0.24f /* of the list's width */
 #define PICTURE_ROWS 3.0f /* of text, as high as a picture is */
-#define MENU_WORD 100     /* room for a name */
-#define MARGIN 0.06f      /* of the window, around the page */
+#define MENU_WORD 100    /* room for a name */
+#define MARGIN 0.06f     /* of the window, around the page */
 
 struct viewer_menu {
     viewer_window *window;
@@ -145,15 +145,13 @@ static int32_t draw_files(viewer_menu *menu, rlf_window_choice *choices, int32_t
     return count;
 }
 
-static int32_t draw_page(viewer_menu *menu, rlf_window_choice *choices, int32_t count,
-                         int32_t selected)
+static int32_t draw_page(viewer_menu *menu, rlf_window_choice *choices, int32_t count, int32_t selected)
 {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const char *title = "";
     int32_t clicked = -1;
     ImGui::SetNextWindowPos(ImVec2(MARGIN * size.x, MARGIN * size.y));
-    ImGui::SetNextWindowSize(
-        ImVec2((1.0f - 2.0f * MARGIN) * size.x, (1.0f - 2.0f * MARGIN) * size.y));
+    ImGui::SetNextWindowSize(ImVec2((1.0f - 2.0f * MARGIN) * size.x, (1.0f - 2.0f * MARGIN) * size.y));
     ImGui::SetNextWindowBgAlpha(0.85f);
     ImGui::Begin("start", nullptr,
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
@@ -178,8 +176,7 @@ void viewer_menu_open_files(viewer_menu *menu)
     panel_files_open(&menu->files, PANEL_SOURCE, nullptr);
 }
 
-int32_t viewer_menu_draw(viewer_menu *menu, rlf_window_choice *choices, int32_t count,
-                         int32_t selected)
+int32_t viewer_menu_draw(viewer_menu *menu, rlf_window_choice *choices, int32_t count, int32_t selected)
 {
     viewer_window *window = menu->window;
     ImGui_ImplOpenGL3_NewFrame();

@@ -1,5 +1,5 @@
-/* Small pictures of what can be chosen. They lie in the texture of the letters, so that no call of
- * OpenGL is needed here. */
+/* Small pictures of what can be chosen. They lie in the texture of the letters, so that no call of OpenGL is needed
+ * here. */
 #include "viewer/panel_parts.h"
 
 #include <stdio.h>
@@ -11,14 +11,12 @@
 /* By whole pixels, the nearest: files are about as small already. */
 static void shrink(rlf_image_rgba8 *image)
 {
-    const int by_width = (image->width + WIDTH - 1) / WIDTH,
-              by_height = (image->height + HEIGHT - 1) / HEIGHT;
+    const int by_width = (image->width + WIDTH - 1) / WIDTH, by_height = (image->height + HEIGHT - 1) / HEIGHT;
     const int factor = by_width > by_height ? by_width : by_height;
     const int width = image->width / factor, height = image->height / factor;
     for (int y = 0; factor > 1 && y < height; y++) {
         for (int x = 0; x < width; x++) {
-            memcpy(image->data + 4 * (y * width + x),
-                   rlf_rgba8_row(image, y * factor) + 4 * x * factor, 4);
+            memcpy(image->data + 4 * (y * width + x), rlf_rgba8_row(image, y * factor) + 4 * x * factor, 4);
         }
     }
     if (factor > 1) {
@@ -40,8 +38,7 @@ void panel_pictures_load(panel_pictures *p, const rlf_window_choice *choices, in
     p->count = count;
     for (int i = 0; i < count; i++) {
         panel_picture *item = &p->items[i];
-        const bool is_there = choices[i].picture[0] != '\0' &&
-                              rlf_picture_read(choices[i].picture, &item->image) == RLF_OK;
+        const bool is_there = choices[i].picture[0] != '\0' && rlf_picture_read(choices[i].picture, &item->image) == RLF_OK;
         if (!is_there) {
             item->image = {};
         } else {
@@ -57,17 +54,14 @@ void panel_pictures_add(panel_pictures *p)
     int width, height;
     for (int i = 0; i < p->count; i++) {
         const rlf_image_rgba8 *image = &p->items[i].image;
-        p->items[i].rect =
-            image->data != nullptr ? atlas->AddCustomRectRegular(image->width, image->height) : -1;
+        p->items[i].rect = image->data != nullptr ? atlas->AddCustomRectRegular(image->width, image->height) : -1;
     }
     atlas->GetTexDataAsRGBA32(&pixels, &width, &height);
     for (int i = 0; i < p->count; i++) {
         const rlf_image_rgba8 *image = &p->items[i].image;
-        const ImFontAtlasCustomRect *rect =
-            image->data != nullptr ? atlas->GetCustomRectByIndex(p->items[i].rect) : nullptr;
+        const ImFontAtlasCustomRect *rect = image->data != nullptr ? atlas->GetCustomRectByIndex(p->items[i].rect) : nullptr;
         for (int y = 0; rect != nullptr && rect->IsPacked() && y < image->height; y++) {
-            memcpy(pixels + 4 * ((ptrdiff_t)(rect->Y + y) * width + rect->X),
-                   rlf_rgba8_row(image, y), 4 * (size_t)image->width);
+            memcpy(pixels + 4 * ((ptrdiff_t)(rect->Y + y) * width + rect->X), rlf_rgba8_row(image, y), 4 * (size_t)image->width);
         }
     }
 }
@@ -80,8 +74,7 @@ bool panel_pictures_draw(const panel_pictures *p, int index, float height)
     if (index >= p->count || image->data == nullptr || p->items[index].rect < 0) {
         return false;
     }
-    const ImFontAtlasCustomRect *rect =
-        const_cast<ImFontAtlas *>(atlas)->GetCustomRectByIndex(p->items[index].rect);
+    const ImFontAtlasCustomRect *rect = const_cast<ImFontAtlas *>(atlas)->GetCustomRectByIndex(p->items[index].rect);
     if (!rect->IsPacked()) {
         return false;
     }

@@ -1,5 +1,4 @@
-/* Dear ImGui in a window, and its looks: its typeface, its colours, and how large they are on this
- * monitor. */
+/* Dear ImGui in a window, and its looks: its typeface, its colours, and how large they are on this monitor. */
 #include "viewer/panel_parts.h"
 
 #include <GLFW/glfw3.h>
@@ -9,12 +8,11 @@
 #include <math.h>
 #include <stdio.h>
 
-#define LETTER_PX 15.0f  /* at 100 % scale: what desktops give to text of 11 points */
+#define LETTER_PX 15.0f /* at 100 % scale: what desktops give to text of 11 points */
 #define WINDOW_ROWS 1000 /* a window this high has text at 100 % */
 #define SCALE_STEP 0.25f /* a font is made anew at each */
 
-/* Sans-serif faces as systems install them, the first that is there: Debian, Fedora, Arch, Windows.
- */
+/* Sans-serif faces as systems install them, the first that is there: Debian, Fedora, Arch, Windows. */
 static const char *const typefaces[] = {
     "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
     "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
@@ -52,19 +50,12 @@ static void set_colours(bool is_light)
 {
     const struct {
         ImVec4 window, frame, text, quiet, header;
-    } dark = {{0.09f, 0.09f, 0.10f, 1},
-              {0.18f, 0.18f, 0.20f, 1},
-              {0.92f, 0.92f, 0.90f, 1},
-              {0.60f, 0.60f, 0.60f, 1},
-              {0.14f, 0.14f, 0.16f, 1}},
-      light = {{0.96f, 0.96f, 0.95f, 1},
-               {0.86f, 0.86f, 0.85f, 1},
-               {0.10f, 0.10f, 0.10f, 1},
-               {0.38f, 0.38f, 0.38f, 1},
-               {0.90f, 0.90f, 0.89f, 1}},
+    } dark = {{0.09f, 0.09f, 0.10f, 1}, {0.18f, 0.18f, 0.20f, 1}, {0.92f, 0.92f, 0.90f, 1},
+              {0.60f, 0.60f, 0.60f, 1}, {0.14f, 0.14f, 0.16f, 1}},
+      light = {{0.96f, 0.96f, 0.95f, 1}, {0.86f, 0.86f, 0.85f, 1}, {0.10f, 0.10f, 0.10f, 1},
+               {0.38f, 0.38f, 0.38f, 1}, {0.90f, 0.90f, 0.89f, 1}},
       &now = is_light ? light : dark;
-    const ImVec4 accent =
-        is_light ? ImVec4(0.72f, 0.44f, 0.02f, 1) : ImVec4(0.98f, 0.74f, 0.27f, 1);
+    const ImVec4 accent = is_light ? ImVec4(0.72f, 0.44f, 0.02f, 1) : ImVec4(0.98f, 0.74f, 0.27f, 1);
     const auto faded = [&accent](float share) {
         return ImVec4(accent.x, accent.y, accent.z, share);
     };
@@ -132,8 +123,7 @@ void panel_context_close(void)
     ImGui::DestroyContext();
 }
 
-void panel_set_style(panel_style *style, GLFWwindow *window, bool is_light,
-                     panel_pictures *pictures)
+void panel_set_style(panel_style *style, GLFWwindow *window, bool is_light, panel_pictures *pictures)
 {
     const float scale = wanted_scale(window);
     if (scale == style->scale && style->is_light == is_light) {

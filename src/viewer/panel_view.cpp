@@ -131,16 +131,14 @@ void panel_draw_settings(viewer_panel *p)
     }
 }
 
-/* Each frame is a bar of the stages' times, the oldest at the left, up to twice a camera's period.
- */
+/* Each frame is a bar of the stages' times, the oldest at the left, up to twice a camera's period. */
 static void draw_plot(const viewer_panel *p)
 {
     const viewer *v = p->v;
     const ImVec2 size(ImGui::GetContentRegionAvail().x, PLOT_HEIGHT * p->style.scale);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImDrawList *list = ImGui::GetWindowDrawList();
-    list->AddRectFilled(at, ImVec2(at.x + size.x, at.y + size.y),
-                        ImGui::GetColorU32(ImGuiCol_FrameBg));
+    list->AddRectFilled(at, ImVec2(at.x + size.x, at.y + size.y), ImGui::GetColorU32(ImGuiCol_FrameBg));
     const float width = size.x / VIEWER_PLOT_FRAMES;
     for (int i = 0; i < v->plot_count; i++) {
         float base = at.y + size.y;

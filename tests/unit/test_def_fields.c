@@ -210,7 +210,7 @@ typedef struct def_try {
 
 #define TRY(type, value, make)                                                                     \
     {                                                                                              \
-#type, value, sizeof(type), fields_##type, COUNT_##type, make                              \
+        #type, value, sizeof(type), fields_##type, COUNT_##type, make                              \
     }
 
 static const def_try tries[] = {

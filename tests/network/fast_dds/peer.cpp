@@ -121,10 +121,8 @@ static Image_ image(int width, int height, int step, const char *encoding, const
 
 static int run_camera()
 {
-    auto *depth =
-        writer<sensor_msgs::msg::dds_::Image_PubSubType>("/camera/depth/image_raw", false);
-    auto *color =
-        writer<sensor_msgs::msg::dds_::Image_PubSubType>("/camera/color/image_raw", false);
+    auto *depth = writer<sensor_msgs::msg::dds_::Image_PubSubType>("/camera/depth/image_raw", false);
+    auto *color = writer<sensor_msgs::msg::dds_::Image_PubSubType>("/camera/color/image_raw", false);
     auto *depth_info =
         writer<sensor_msgs::msg::dds_::CameraInfo_PubSubType>("/camera/depth/camera_info", false);
     auto *color_info =
@@ -182,8 +180,7 @@ static int fail(const char *what)
 template <class Message> static bool take(fast::DataReader *r, Message &out)
 {
     fast::SampleInfo sample;
-    while (r->take_next_sample(&out, &sample) ==
-           eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
+    while (r->take_next_sample(&out, &sample) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
         if (sample.valid_data) {
             return true;
         }
@@ -238,7 +235,8 @@ static int run_reader(int count)
         }
         const uint32_t shade = c.data()[0];
         for (int i = 0; i < CW * CH * 3; i++) {
-            const uint8_t wanted = uint8_t(shade + color_of(0, i / 3 % CW, i / 3 / CW, i % 3));
+            const uint8_t wanted =
+                uint8_t(shade + color_of(0, i / 3 % CW, i / 3 / CW, i % 3));
             if (c.data()[i] != wanted) {
                 return fail("a pixel of colour is another one");
             }
@@ -266,14 +264,12 @@ static int run_look()
     if (!wait(mask, foreground) || foreground.encoding() != "mono8") {
         return fail("no foreground");
     }
-    if (!wait(points, cloud) || cloud.fields().size() != 6 ||
-        cloud.fields()[5].name() != "normal_z" ||
+    if (!wait(points, cloud) || cloud.fields().size() != 6 || cloud.fields()[5].name() != "normal_z" ||
         cloud.data().size() != size_t(cloud.row_step()) * cloud.height() || cloud.is_dense()) {
         return fail("no points");
     }
     if (!wait(bodies, body) || body.markers().size() < 2 || body.markers()[0].action() != 3 ||
-        body.markers()[1].header().frame_id() != "relief_world" ||
-        body.markers()[1].color().a() != 1) {
+        body.markers()[1].header().frame_id() != "relief_world" || body.markers()[1].color().a() != 1) {
         return fail("no bodies");
     }
     if (!wait(contacts, touch) || touch.markers().empty()) {
@@ -293,8 +289,8 @@ int main(int argc, char **argv)
     }
     // The end of the process takes all down: a peer that is killed is part of the game.
     const int status = what == "camera" ? run_camera()
-                       : what == "look" ? run_look()
-                                        : run_reader(argc > 2 ? std::atoi(argv[2]) : 30);
+               : what == "look" ? run_look()
+                                : run_reader(argc > 2 ? std::atoi(argv[2]) : 30);
     std::fflush(stdout);
     std::_Exit(status);
 }
