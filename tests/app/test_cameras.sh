@@ -81,13 +81,13 @@ grep -q '^60 frames' stdout.txt || fail "the others waited: $(cat stdout.txt)"
 # ---- where they stand ---------------------------------------------------------------------------------
 # Two views of a camera that goes about a point 2 m ahead (relief/synthetic.h, orbit), 2 m and 57 degrees apart; the second
 # one's place in the list is wrong by some centimetres.
-"$relief" record 'synthetic:empty?path=orbit&color=64x36&fps=0.4545&frames=4' orbit.mcap --quiet || fail "orbit.mcap"
+"$relief" record 'synthetic:empty?path=orbit&color=64x36&fps=0.4545&frames=4' orbit/ --quiet || fail "orbit"
 # camera FRAME SECONDS WRONG_M WRONG_RAD
 camera()
 {
     awk -v frame="$1" -v t="$2" -v off="$3" -v turned="$4" 'BEGIN {
         pi = atan2(0, -1); a = 0.5 * sin(2 * pi * 0.11 * t)
-        printf "{ \"source\": \"orbit.mcap?start=%d&count=1\", ", frame
+        printf "{ \"source\": \"orbit?start=%d&count=1\", ", frame
         printf "\"position\": [%f, %f, %f], ", -2 * sin(a) + off, 0.05 * sin(2 * pi * 0.2 * t) - off, 2 * (1 - cos(a)) + off
         printf "\"orientation\": [0, %f, 0, %f] }", sin((a + turned) / 2), cos((a + turned) / 2) }'
 }
