@@ -169,7 +169,7 @@ static rlf_result align(aligner *a, rlf_pose start, rlf_track_result *best)
 /* A room is predicted for pictures no larger than those that it was made of. */
 static int32_t shrink_of(const rlf_camera *camera, const rlf_camera *first)
 {
-    int32_t factor = 1;
+    int32_t factor = 2; /* the tracker looks at every fourth pixel */
     while (camera->width / factor > first->width || camera->height / factor > first->height) {
         factor++;
     }
