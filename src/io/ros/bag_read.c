@@ -132,8 +132,9 @@ static rlf_result unpack_into(bag *self, int32_t index, io_ros_unpacked *out)
     if (!read_at(self, chunk->position, self->packed.data, chunk->packed_size)) {
         return rlf_fail(RLF_ERROR_IO, "%s: cannot be read: check the disk", name);
     }
-    if (!io_unpack(chunk->packing, self->packed.data, chunk->packed_size, out->bytes.data,
-                   chunk->size)) {
+    const bool is_emptied = chunk->size == 0 && chunk->packed_size > 0;
+    if (is_emptied || !io_unpack(chunk->packing, self->packed.data, chunk->packed_size,
+                                 out->bytes.data, chunk->size)) {
         return rlf_fail(RLF_ERROR_FORMAT,
                         "%s: a compressed chunk is damaged: copy or record it again", name);
     }
