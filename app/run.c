@@ -81,7 +81,6 @@ static rlf_result draw_other(session *s, int32_t camera, rlf_pipeline_output *fr
     rlf_result result = rlf_pipeline_redraw(s->cameras.pipelines[camera - 1], &other);
     if (result == RLF_OK) {
         frame->render = other.render;
-        frame->surface = other.surface;
     }
     return result == RLF_NO_FRAME ? RLF_OK : result;
 }

@@ -85,6 +85,8 @@ bool session_parse_profile(const char *text, rlf_profile *out);
 
 /* ---- session_cameras.c: the cameras beside the first: their surfaces join its world */
 
+/* Whether it names a list of cameras, FILE.json. */
+bool session_is_camera_list(const char *source);
 /* Where `source` names: itself, or the cameras of a list, FILE.json. */
 rlf_result session_cameras_find(const char *source, session_cameras *out);
 /* Opens all sources but the first, which play as it does. */

@@ -3,11 +3,16 @@
 
 #include <string.h>
 
-rlf_result session_cameras_find(const char *source, session_cameras *out)
+bool session_is_camera_list(const char *source)
 {
     const size_t length = strlen(source);
+    return length > 5 && strcmp(source + length - 5, ".json") == 0 && strchr(source, '?') == NULL;
+}
+
+rlf_result session_cameras_find(const char *source, session_cameras *out)
+{
     memset(out, 0, sizeof(*out));
-    if (length > 5 && strcmp(source + length - 5, ".json") == 0 && strchr(source, '?') == NULL) {
+    if (session_is_camera_list(source)) {
         return rlf_cameras_load(source, out->places, &out->count);
     }
     out->count = 1;

@@ -4,6 +4,7 @@
 #include "command.h"
 #include "options.h"
 #include "relief/io.h"
+#include "session.h"
 
 #include <getopt.h>
 #include <math.h>
@@ -287,8 +288,7 @@ static int print_board(const calibrate_options *o)
 static int check_source(const calibrate_options *o)
 {
     bool is_stale = false;
-    const size_t length = strlen(o->check);
-    const bool is_list = length > 5 && strcmp(o->check + length - 5, ".json") == 0;
+    const bool is_list = session_is_camera_list(o->check);
     if (!is_list && o->out_path != NULL) {
         return command_usage("calibrate", "--check writes --out of a list of cameras only");
     }

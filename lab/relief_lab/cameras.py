@@ -21,12 +21,12 @@ BACK_VIEW = {"position": [0, 0, 5], "orientation": [0, 1, 0, 0]}  # of path=oppo
 
 def _cameras(folder, seed, count):
     """The path of a list of the first `count` cameras."""
-    name = "synthetic:book?color=64x36&frames=%d&seed=%d" % (FRAMES, seed)
-    both = [{"source": name}, {"source": name + "1&path=opposite", **BACK_VIEW}]
+    name = "synthetic:book?color=64x36&frames=%d&seed=" % FRAMES
+    both = [{"source": name + str(seed)}, {"source": "%s%d&path=opposite" % (name, seed + 10), **BACK_VIEW}]
     path = os.path.join(folder, "cameras_%d.json" % count)
     with open(path, "w", encoding="utf-8") as file:
         json.dump({"cameras": both[:count]}, file)
-    return path, name
+    return path, both[0]["source"]
 
 
 def _throw(world):
@@ -44,12 +44,12 @@ def _throw(world):
 
 def _touches(path):
     """Where each grain was at its first touch, by (side, column, row)."""
-    touches, grains = {}, {}
+    touches, grains = {}, None
     with relief.Pipeline(path, gravity=(0, 0, 0), camera="fixed", render=False, threads=1) as pipeline:
         for step in pipeline:
-            if not grains and step.time >= STANDS_S:
+            if grains is None and step.time >= STANDS_S:
                 grains = _throw(pipeline.world)
-            for name in {contact.body for contact in step.contacts} & set(grains):
+            for name in {contact.body for contact in step.contacts} & set(grains or ()):
                 key = tuple(int(word) for word in name.split(","))
                 touches[key] = np.array(grains.pop(name).position)
     return touches
